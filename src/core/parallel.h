@@ -1,0 +1,58 @@
+#pragma once
+
+/// Parallel loops with results independent of the number of threads: every index writes its own output, and
+/// sums are taken over fixed blocks in a fixed order.
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace ebru {
+
+/// Calls body(i) for every i in [0, count), concurrently. `grain` is the number of indices worth a task.
+template <class Body>
+void parallelFor(std::size_t count, std::size_t grain, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+                    });
+}
+
+/// Calls body(begin, end) for consecutive blocks of `block` indices, concurrently; for bodies with scratch memory.
+template <class Body>
+void parallelBlocks(std::size_t count, std::size_t block, const Body& body) {
+  parallelFor((count + block - 1) / block, 1,
+              [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
+}
+
+/// Sum of term(i) over [0, count), in double, in an order that does not depend on the threads.
+template <class Term>
+double parallelSum(std::size_t count, const Term& term) {
+  constexpr std::size_t block = 4096;
+  std::vector<double> partial((count + block - 1) / block, 0.0);
+  parallelBlocks(count, block, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    partial[begin / block] = sum;
+  });
+  double total = 0.0;
+  for (double p : partial) total += p;
+  return total;
+}
+
+/// Limits all parallel loops to `threads` while it lives; 0 leaves the machine's number.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  void* control_ = nullptr;
+};
+
+}  // namespace ebru

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+#include "fluid/fluid_frame.h"
+#include "io/state_file.h"
+#include "texturing/texture_field.h"
+#include "texturing/texture_options.h"
+
+namespace ebru {
+
+/// One algorithm that textures a fluid, frame after frame. Owns its state. Deterministic for any number of threads.
+class TextureMethod {
+ public:
+  virtual ~TextureMethod() = default;
+
+  virtual void start(const FluidFrame& first) = 0;
+  /// `from` is the frame of the last start or advance, `to` the next one.
+  virtual void advance(const FluidFrame& from, const FluidFrame& to) = 0;
+
+  /// Of the newest frame; stays valid and unchanged after later advances while the pointer is held.
+  virtual std::shared_ptr<const TextureField> field() const = 0;
+
+  /// State of the newest frame: `load` into a new object of the same options, then `advance` gives the same bits.
+  virtual void save(StateWriter& writer) const = 0;
+  virtual void load(const StateReader& reader) = 0;
+};
+
+struct TextureMethodInfo {
+  std::string name;
+  std::string summary;  ///< one line: paper and idea
+};
+
+/// All methods, in the order of `ebru methods`.
+const std::vector<TextureMethodInfo>& textureMethods();
+
+/// @param exemplarPath  resolved file name of options.exemplar
+/// @param seed  of the shot
+/// @param times  where phases are timed; may be null
+/// @throw UsageError if there is no such method; InputError if the exemplar cannot be used
+std::unique_ptr<TextureMethod> makeTextureMethod(const TextureOptions& options, std::uint64_t seed,
+                                                 PhaseTimes* times);
+
+}  // namespace ebru
