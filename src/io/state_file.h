@@ -1,7 +1,7 @@
 #pragma once
 
 /// State files: what a texture method needs to go on from a frame. A versioned container of named arrays, compressed
-/// and checksummed (zstd). Same content, same bytes.
+/// and checksummed (zstd). Same content, same bytes. Elements are plain values: numbers and fixed-size vectors.
 
 #include <cstdint>
 #include <cstring>
@@ -9,7 +9,6 @@
 #include <map>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace ebru {
@@ -18,7 +17,6 @@ class StateWriter {
  public:
   template <class T>
   void array(const std::string& name, const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T> || sizeof(T) > 0);
     addBytes(name, sizeof(T), reinterpret_cast<const std::byte*>(values.data()), values.size() * sizeof(T));
   }
   template <class T>
