@@ -3,6 +3,7 @@
 /// Small vectors and matrices. World space is metres unless a name says otherwise.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
 
