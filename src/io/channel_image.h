@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -29,7 +30,10 @@ struct ChannelImage {
   std::vector<Channel> channels;
   std::vector<std::pair<std::string, Attribute>> attributes;
 
+  /// Adds a plane of width * height zeros. References to other channels are invalidated. @throw BugError on a name
+  /// that is there already
   Channel& add(std::string name, ChannelType type);
+  /// Null if there is none.
   const Channel* find(std::string_view name) const;
   const Attribute* attribute(std::string_view name) const;
 };

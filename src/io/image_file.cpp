@@ -1,0 +1,112 @@
+#include "io/image_file.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "io/atomic_file.h"
+
+namespace ebru {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& got, const std::string& expected,
+                         const std::string& next) {
+  throw InputError(fmt::format("{}: cannot be read as an image: got {}, expected {}; {}", path.string(), got, expected,
+                               next));
+}
+
+float linearFromSrgb(float value) {
+  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+float srgbFromLinear(float value) {
+  return value <= 0.0031308f ? value * 12.92f : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
+}
+
+bool isInteger(OIIO::TypeDesc format) {
+  return format.basetype == OIIO::TypeDesc::UINT8 || format.basetype == OIIO::TypeDesc::UINT16;
+}
+
+void checkFinite(const std::filesystem::path& path, const LoadedImage& image) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < image.data.size(); ++i) {
+    if (std::isfinite(image.data[i])) continue;
+    const std::size_t pixel = i / channels;
+    refuse(path,
+           fmt::format("{} in channel {} of pixel ({}, {})", image.data[i], i % channels,
+                       pixel % static_cast<std::size_t>(image.width), pixel / static_cast<std::size_t>(image.width)),
+           "finite values", "replace NaN and infinity in the image");
+  }
+}
+
+std::vector<unsigned char> encodePng(const std::filesystem::path& path, const ChannelImage& image) {
+  std::array<const ChannelImage::Channel*, 3> planes{image.find("R"), image.find("G"), image.find("B")};
+  for (const ChannelImage::Channel* plane : planes)
+    if (!plane) throw BugError(path.string() + ": preview of a picture without channels R G B");
+  std::vector<unsigned char> pixels(3 * planes[0]->data.size());
+  for (std::size_t i = 0; i < planes[0]->data.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = planes[c]->data[i];
+      const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+      pixels[3 * i + c] = static_cast<unsigned char>(255.0f * srgbFromLinear(clamped) + 0.5f);
+    }
+
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const std::string name = path.filename().string() + ".png";
+  const auto output = OIIO::ImageOutput::create("png", &memory);
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  if (!output || !output->open(name, spec) ||
+      !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close())
+    throw OutputError(fmt::format("{}: cannot be encoded as PNG: got \"{}\"", path.string(),
+                                  output ? output->geterror() : OIIO::geterror()));
+  return bytes;
+}
+
+}  // namespace
+
+LoadedImage readImage(const std::filesystem::path& path, bool toLinear) {
+  const std::string next = "name a PNG, JPEG, TIFF, HDR or EXR file";
+  std::error_code status;
+  if (!std::filesystem::is_regular_file(path, status))
+    refuse(path, std::filesystem::exists(path, status) ? "something that is not a file" : "no such file",
+           "an image file", next);
+  OIIO::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(path.string(), &config);
+  if (!input) refuse(path, fmt::format("\"{}\"", OIIO::geterror()), "an image file", next);
+  const OIIO::ImageSpec spec = input->spec();
+  constexpr int largestSide = 1 << 16;
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.width > largestSide ||
+      spec.height > largestSide || spec.depth > 1)
+    refuse(path, fmt::format("{} x {} x {} pixels of {} channels", spec.width, spec.height, spec.depth, spec.nchannels),
+           "1 to 65536 pixels a side", next);
+
+  LoadedImage image;
+  image.width = spec.width;
+  image.height = spec.height;
+  image.channels = spec.nchannels;
+  image.data.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                    static_cast<std::size_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data.data()))
+    refuse(path, fmt::format("\"{}\"", input->geterror()), "a complete image", "save it again");
+  checkFinite(path, image);
+  if (toLinear && isInteger(spec.format))
+    for (std::size_t i = 0; i < image.data.size(); ++i)
+      if (static_cast<int>(i % static_cast<std::size_t>(spec.nchannels)) != spec.alpha_channel)
+        image.data[i] = linearFromSrgb(image.data[i]);
+  return image;
+}
+
+void writePreviewPng(const std::filesystem::path& path, const ChannelImage& image) {
+  const std::vector<unsigned char> bytes = encodePng(path, image);
+  writeTextAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace ebru
