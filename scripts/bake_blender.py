@@ -1,0 +1,514 @@
+#!/usr/bin/python3
+"""Bakes a named fluid scene with Blender's Mantaflow FLIP solver and converts it to world-space OpenVDB frames.
+
+    scripts/bake_blender.py dam_break --resolution 48 --out scenes/caches/dam_break
+
+Writes OUT/<name>.####.vdb, frames from 1, with two grids (half floats, blosc):
+    surface  float level set, metres, voxel = half a solver cell, narrow band of 3 voxels
+    vel      staggered vec3s, metres per second, solver cells, only near the fluid
+World space: metres, z up; the frame rate is in the file metadata and in the final report.
+
+The file is two programs: started by python it launches `blender -b --python <this file> -- ...` in a temporary directory
+and converts what that leaves behind; started by Blender it builds the scene and bakes it.
+
+Exit codes: 0 done, 2 usage or missing program, 3 the bake or its data are no good, 4 the result cannot be written.
+"""
+import argparse
+import dataclasses
+import gzip
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# Mantaflow's clock: a frame is 0.1 * (25 / fps) solver units long, so one second is 2.5 of them.
+SOLVER_UNITS_PER_SECOND = 2.5
+HALF_WIDTH_VOXELS = 3.0
+# `vel` is kept this far outside the surface: trilinear look-ups and one frame of advection beside the fluid still hit data.
+VELOCITY_MARGIN_CELLS = 3.0
+# Metres per second. Far under what the solver resolves (0.01 voxel a frame at usual sizes), and it takes a third off `vel`.
+VELOCITY_STEP = 1 / 256
+
+
+class BakeError(Exception):
+    """A failure with the exit code it stands for."""
+
+    def __init__(self, exitCode, message):
+        super().__init__(message)
+        self.exitCode = exitCode
+
+
+# ---- scenes: pure data and one builder each; the builder runs inside Blender ----
+
+
+@dataclasses.dataclass(frozen=True)
+class Box:
+    minWorld: tuple
+    maxWorld: tuple
+
+    def centre(self):
+        return tuple((a + b) / 2 for a, b in zip(self.minWorld, self.maxWorld))
+
+    def size(self):
+        return tuple(b - a for a, b in zip(self.minWorld, self.maxWorld))
+
+
+@dataclasses.dataclass(frozen=True)
+class Scene:
+    """What the converter must know about a scene; everything else is the builder's business."""
+
+    build: object  # function(scene): called inside Blender, returns the domain object
+    domain: Box  # metres; sides that are whole numbers of cells keep obstacle and fluid exactly aligned
+    obstacles: tuple  # of Box, metres
+    bakedFrames: int
+    keptFrames: int
+    fps: int
+
+
+def buildDamBreak(scene):
+    """A column across the whole tank collapses, runs around and over a box and up the far wall."""
+    import bpy
+
+    # A quarter of earth's gravity: the 2 m tank moves like an 8 m one, slow enough for a surface to be followed by eye.
+    bpy.context.scene.gravity = (0, 0, -9.81 / 4)
+    domain = addDomain(scene)
+    settings = domain.modifiers["Fluid"].domain_settings
+    # A touch of PIC damps the spray: broad sheets are what a texture needs.
+    settings.flip_ratio = 0.9
+    settings.mesh_scale = 2
+    settings.mesh_particle_radius = 2.0
+    settings.mesh_smoothen_pos = 2
+    settings.mesh_smoothen_neg = 2
+
+    # Reaches beyond back and sides, so that the fluid touches those walls from the start and only its front edge is free.
+    column = addBox("column", Box((-1.2, -0.7, -0.2), (-0.42, 0.7, 0.66)), bevelWorld=0.10)
+    flow = addFluidModifier(column, "FLOW").flow_settings
+    flow.flow_type = "LIQUID"
+    flow.flow_behavior = "GEOMETRY"
+
+    for index, box in enumerate(scene.obstacles):
+        effector = addFluidModifier(addBox(f"obstacle{index}", box), "EFFECTOR").effector_settings
+        effector.effector_type = "COLLISION"
+    return domain
+
+
+SCENES = {
+    "dam_break": Scene(
+        build=buildDamBreak,
+        domain=Box((-1.0, -0.5, 0.0), (1.0, 0.5, 1.0)),
+        obstacles=(Box((0.0, -0.2, 0.0), (0.25, 0.2, 0.16)),),
+        bakedFrames=36,
+        keptFrames=32,
+        fps=24,
+    ),
+}
+
+
+# ---- inside Blender ----
+
+
+def addBox(name, box, bevelWorld=0.0):
+    import bpy
+
+    bpy.ops.mesh.primitive_cube_add(size=1, location=box.centre())
+    thing = bpy.context.object
+    thing.name = name
+    thing.scale = box.size()
+    # Mantaflow reads sizes from the mesh, and a bevel on a scaled object would be as skewed as its scale.
+    bpy.ops.object.transform_apply(location=False, rotation=False, scale=True)
+    if bevelWorld > 0:
+        bevel = thing.modifiers.new("Bevel", "BEVEL")
+        bevel.width = bevelWorld
+        bevel.segments = 6
+        bpy.ops.object.modifier_apply(modifier="Bevel")
+    return thing
+
+
+def addFluidModifier(thing, kind):
+    modifier = thing.modifiers.new("Fluid", "FLUID")
+    modifier.fluid_type = kind
+    return modifier
+
+
+def addDomain(scene):
+    settings = addFluidModifier(addBox("domain", scene.domain), "DOMAIN").domain_settings
+    settings.domain_type = "LIQUID"
+    settings.use_mesh = True
+    settings.use_adaptive_timesteps = True
+    settings.cfl_condition = 2.0
+    settings.timesteps_min = 2
+    settings.timesteps_max = 8
+    return settings.id_data
+
+
+def bakeInsideBlender(arguments):
+    import bpy
+
+    scene = SCENES[arguments.scene]
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.context.scene.render.fps = scene.fps
+    bpy.context.scene.frame_start = 1
+    bpy.context.scene.frame_end = scene.bakedFrames
+    domain = scene.build(scene)
+    settings = domain.modifiers["Fluid"].domain_settings
+    settings.resolution_max = arguments.resolution
+    settings.cache_directory = str(arguments.cache)
+    settings.cache_type = "ALL"
+    settings.cache_data_format = "OPENVDB"
+    settings.cache_mesh_format = "BOBJECT"
+    settings.openvdb_data_depth = "32"
+    settings.cache_frame_start = 1
+    settings.cache_frame_end = scene.bakedFrames
+    bpy.context.view_layer.objects.active = domain
+    bpy.ops.fluid.bake_all()
+
+
+# ---- conversion ----
+
+
+def readBobj(path):
+    """Vertices (domain-centred, longest side 1) and triangles of a Mantaflow mesh."""
+    import numpy as np
+
+    data = gzip.decompress(path.read_bytes())
+    vertexCount = int(np.frombuffer(data, "<i4", 1, 0)[0])
+    points = np.frombuffer(data, "<f4", 3 * vertexCount, 4).reshape(-1, 3)
+    offset = 4 + 12 * vertexCount
+    normalCount = int(np.frombuffer(data, "<i4", 1, offset)[0])
+    offset += 4 + 12 * normalCount
+    triangleCount = int(np.frombuffer(data, "<i4", 1, offset)[0])
+    triangles = np.frombuffer(data, "<i4", 3 * triangleCount, offset + 4).reshape(-1, 3)
+    return points.astype(np.float64), triangles
+
+
+def dropSpecks(points, triangles, minimumVolume):
+    """Removes closed pieces (drops, and bubbles, whose volume is negative) too small to carry a texture."""
+    import numpy as np
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    edges = np.concatenate([triangles[:, :2], triangles[:, 1:]])
+    graph = coo_matrix((np.ones(len(edges), bool), edges.T), shape=(len(points),) * 2)
+    pieceOfVertex = connected_components(graph, directed=False)[1]
+    pieceOfTriangle = pieceOfVertex[triangles[:, 0]]
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    volumes = np.bincount(pieceOfTriangle, np.einsum("ij,ij->i", a, np.cross(b, c)) / 6)
+    return triangles[np.abs(volumes[pieceOfTriangle]) >= minimumVolume]
+
+
+def worldFromGrid(scene, resolution):
+    """Cell size and the world position of the grid's low corner.
+
+    Mantaflow's cells are cubes of longest side / resolution and the mesh is centred in the grid, so with sides that are not
+    whole numbers of cells the grid is centred in the domain rather than anchored at its corner.
+    """
+    import numpy as np
+
+    size = np.array(scene.domain.size())
+    cell = size.max() / resolution
+    counts = np.maximum(1, np.floor(size / cell + 0.5))
+    return cell, np.array(scene.domain.centre()) - counts * cell / 2
+
+
+def makeSurface(scene, meshPath, cell):
+    import numpy as np
+    import pyopenvdb as vdb
+
+    voxel = cell / 2
+    points, triangles = readBobj(meshPath)
+    pointsWorld = np.array(scene.domain.centre()) + max(scene.domain.size()) * points
+    triangles = dropSpecks(pointsWorld, triangles, minimumVolume=cell**3)
+    transform = vdb.createLinearTransform(voxelSize=voxel)
+    surface = vdb.FloatGrid.createLevelSetFromPolygons(
+        pointsWorld.astype(np.float32), triangles=triangles.astype(np.uint32), transform=transform, halfWidth=HALF_WIDTH_VOXELS
+    )
+    surface.name = "surface"
+    surface.gridClass = vdb.GridClass.LEVEL_SET
+    surface.saveFloatAsHalf = True
+    surface.pruneInactive()
+    return surface
+
+
+def indexBounds(grid):
+    import numpy as np
+
+    low, high = grid.evalActiveVoxelBoundingBox()
+    return np.array(low), np.array(high)
+
+
+def distanceToFluid(surface, positionsWorld):
+    """Metres from the fluid, 0 inside; exact as far out as the velocity margin needs, unlike the narrow band."""
+    import numpy as np
+    from scipy.ndimage import distance_transform_edt, map_coordinates
+
+    voxel = surface.transform.voxelSize()[0]
+    low, high = indexBounds(surface)
+    pad = 2 + int(np.ceil(2 * VELOCITY_MARGIN_CELLS))
+    low, high = low - pad, high + pad
+    values = np.empty(tuple(high - low + 1), np.float32)
+    surface.copyToArray(values, ijk=tuple(int(v) for v in low))
+    distance = distance_transform_edt(values > 0).astype(np.float32) * voxel
+    index = positionsWorld / voxel - low[:, None, None, None]
+    return map_coordinates(distance, index, order=1, mode="nearest")
+
+
+def makeVelocity(scene, dataPath, surface, resolution):
+    import numpy as np
+    import pyopenvdb as vdb
+
+    # Read by name: the file's `particles` grid uses a codec that no stock reader knows, reading it throws.
+    source = vdb.read(str(dataPath), "velocity")
+    cell, originWorld = worldFromGrid(scene, resolution)
+    low, high = indexBounds(source)
+    values = np.zeros(tuple(high - low + 1) + (3,), np.float32)
+    source.copyToArray(values, ijk=tuple(int(v) for v in low))
+    values *= cell * SOLVER_UNITS_PER_SECOND
+    index = np.stack(np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(low, high)), indexing="ij"))
+    centresWorld = originWorld[:, None, None, None] + (index + 0.5) * cell
+    keep = distanceToFluid(surface, centresWorld) <= VELOCITY_MARGIN_CELLS * cell
+    if not np.isfinite(values[keep]).all():
+        raise BakeError(3, f"{dataPath.name}: velocity: got a value that is not finite; bake again at another resolution")
+    # Adding 0 turns -0 into 0, which sparse storage can drop.
+    values = np.where(keep[..., None], np.round(values / VELOCITY_STEP) * VELOCITY_STEP, 0).astype(np.float32) + np.float32(0)
+
+    velocity = vdb.Vec3SGrid()
+    velocity.copyFromArray(values, ijk=tuple(int(v) for v in low))
+    velocity.pruneInactive()
+    transform = vdb.createLinearTransform(voxelSize=cell)
+    transform.translate(tuple(float(v) for v in originWorld + 0.5 * cell))
+    velocity.transform = transform
+    velocity.name = "vel"
+    velocity.gridClass = vdb.GridClass.STAGGERED
+    velocity.saveFloatAsHalf = True
+    return velocity
+
+
+def convert(scene, name, cache, resolution, staging):
+    """Converts frames 1..keptFrames into `staging`; returns their paths."""
+    import pyopenvdb as vdb
+
+    cell, _ = worldFromGrid(scene, resolution)
+    paths = []
+    for frame in range(1, scene.keptFrames + 1):
+        meshPath = cache / "mesh" / f"fluid_mesh_{frame:04d}.bobj.gz"
+        dataPath = cache / "data" / f"fluid_data_{frame:04d}.vdb"
+        for path in (meshPath, dataPath):
+            if not path.is_file():
+                raise BakeError(3, f"{name}: frame {frame}: got no {path.name} from Blender, expected one per frame; see its log above")
+        surface = makeSurface(scene, meshPath, cell)
+        if surface.activeVoxelCount() == 0:
+            raise BakeError(3, f"{name}: frame {frame}: got an empty fluid surface; raise --resolution")
+        velocity = makeVelocity(scene, dataPath, surface, resolution)
+        path = staging / f"{name}.{frame:04d}.vdb"
+        vdb.write(str(path), grids=[surface, velocity], metadata={"fps": float(scene.fps), "unit": "metre", "frame": frame})
+        paths.append(path)
+    return paths
+
+
+# ---- velocity check ----
+
+
+def denseLevelSet(path):
+    """Signed distance in a box with its low index, from the written file (so the check sees what a reader will see)."""
+    import numpy as np
+    import pyopenvdb as vdb
+
+    surface = vdb.read(str(path), "surface")
+    low, high = indexBounds(surface)
+    low, high = low - 2, high + 2
+    values = np.empty(tuple(high - low + 1), np.float32)
+    surface.copyToArray(values, ijk=tuple(int(v) for v in low))
+    return values, low, surface.transform.voxelSize()[0]
+
+
+def surfacePoints(values, low, voxel):
+    """Zero crossings along the grid's x, y and z edges: points on the surface without meshing it."""
+    import numpy as np
+
+    points = []
+    for axis in range(3):
+        a = np.take(values, range(values.shape[axis] - 1), axis)
+        b = np.take(values, range(1, values.shape[axis]), axis)
+        where = np.argwhere((a > 0) != (b > 0))
+        va, vb = a[tuple(where.T)], b[tuple(where.T)]
+        point = where.astype(np.float64)
+        point[:, axis] += va / (va - vb)
+        points.append((point + low) * voxel)
+    return np.concatenate(points)
+
+
+def sampleStaggered(path, pointsWorld):
+    import numpy as np
+    import pyopenvdb as vdb
+    from scipy.ndimage import map_coordinates
+
+    grid = vdb.read(str(path), "vel")
+    low, high = indexBounds(grid)
+    low, high = low - 1, high + 1
+    values = np.zeros(tuple(high - low + 1) + (3,), np.float32)
+    grid.copyToArray(values, ijk=tuple(int(v) for v in low))
+    cell = grid.transform.voxelSize()[0]
+    index = (pointsWorld - np.array(grid.transform.indexToWorld((0, 0, 0)))) / cell - low
+    # Component k is stored on the cell's low face across axis k, half a cell below its centre.
+    return np.stack(
+        [map_coordinates(values[..., k], (index + 0.5 * (np.arange(3) == k)).T, order=1, mode="nearest") for k in range(3)], -1
+    )
+
+
+def readMotion(scene, fromPath, toPath):
+    """What the fit needs of a pair of frames: distanceInVoxels(s, forward) of the moved surface points."""
+    import numpy as np
+    from scipy.ndimage import map_coordinates
+
+    values, low, voxel = denseLevelSet(fromPath)
+    points = surfacePoints(values, low, voxel)
+    # What lies on the floor or a wall only slides within itself and would dilute the fit.
+    margin = 5 * voxel
+    domain = scene.domain
+    points = points[np.all((points > np.array(domain.minWorld) + margin) & (points < np.array(domain.maxWorld) - margin), axis=1)]
+    startVelocity = sampleStaggered(fromPath, points)
+    endVelocity = sampleStaggered(toPath, points + startVelocity / scene.fps)
+    nextValues, nextLow, _ = denseLevelSet(toPath)
+
+    def distanceInVoxels(s, forward):
+        velocity = startVelocity if forward else 0.5 * (startVelocity + endVelocity)
+        moved = (points + velocity * (s / scene.fps)) / voxel - nextLow
+        return np.abs(map_coordinates(nextValues, moved.T, order=1, mode="nearest")) / voxel
+
+    return distanceInVoxels
+
+
+def fitScale(motions, forward):
+    """The s that lands the surface points of all `motions` best on the surfaces that follow; median distances at s and at 0."""
+    import numpy as np
+    from scipy.optimize import minimize_scalar
+
+    def distances(s):
+        return np.concatenate([motion(s, forward) for motion in motions])
+
+    s = minimize_scalar(lambda s: distances(s).mean(), bounds=(0.0, 2.0), method="bounded", options={"xatol": 1e-3}).x
+    return s, np.median(distances(s)), np.median(distances(0.0))
+
+
+def report(scene, name, resolution, paths):
+    """Prints what was made and checks velocity against surface; throws when they disagree in the sequence's middle half."""
+    cell, _ = worldFromGrid(scene, resolution)
+    print(f"{name}: {len(paths)} frames at {scene.fps} fps, solver cell {cell:g} m, surface voxel {cell / 2:g} m")
+    print(f"domain {scene.domain}")
+    for box in scene.obstacles:
+        print(f"obstacle {box}, centre {box.centre()}, size {box.size()}")
+    print(
+        "velocity check: surface points of a frame moved by s * v / fps are to lie on the next surface; residuals are median\n"
+        "distances in voxels. 'forward' takes v at the start, 'mean' the mean of both ends, which cancels acceleration and so\n"
+        "is a check of units alone. Below 0.5 voxel at s = 0 the surface hardly moves and s means little."
+    )
+    print("  frames          forward s  residual   mean s  residual   at s = 0")
+    motions = [readMotion(scene, first, second) for first, second in zip(paths[:-1], paths[1:])]
+
+    def row(label, some):
+        forward, mean = fitScale(some, forward=True), fitScale(some, forward=False)
+        print(f"  {label:14}  {forward[0]:9.3f}  {forward[1]:8.2f}  {mean[0]:7.3f}  {mean[1]:8.2f}  {mean[2]:9.2f}")
+        return mean[0]
+
+    for first, second, motion in zip(paths[:-1], paths[1:], motions):
+        row(f"{first.stem[-4:]} -> {second.stem[-4:]}", [motion])
+    quarter = len(motions) // 4
+    s = row("middle half", motions[quarter : len(motions) - quarter])
+    print(f"size {sum(path.stat().st_size for path in paths) / 1e6:.2f} MB, largest frame {max(path.stat().st_size for path in paths) / 1e6:.2f} MB")
+    if abs(s - 1) > 0.05:
+        raise BakeError(3, f"{name}: velocity check: got s = {s:.3f}, expected 1.00 +- 0.05; nothing was written")
+
+
+# ---- entry ----
+
+
+def publish(paths, out, name):
+    """Replaces the sequence in `out`: every file is copied beside its target and renamed, then older extra frames go."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        for path in paths:
+            temporary = out / f"{path.stem}.tmp.{os.getpid()}.vdb"
+            try:
+                shutil.copyfile(path, temporary)
+                os.replace(temporary, out / path.name)
+            finally:
+                temporary.unlink(missing_ok=True)
+        wanted = {path.name for path in paths}
+        for old in out.glob(f"{name}.[0-9][0-9][0-9][0-9].vdb"):
+            if old.name not in wanted:
+                old.unlink()
+    except OSError as error:
+        raise BakeError(4, f"{out}: cannot write: {error}") from error
+
+
+def runBlender(arguments, cache):
+    blender = shutil.which(arguments.blender)
+    if not blender:
+        raise BakeError(2, f"{arguments.blender}: no such program; install Blender 3.4 or pass --blender PATH")
+    command = [blender, "-b", "--factory-startup", "--threads", str(arguments.threads), "--python-exit-code", "3", "--python", __file__, "--"]
+    command += [arguments.scene, "--resolution", str(arguments.resolution), "--cache", str(cache)]
+    log = cache.parent / "blender.log"
+    with log.open("w") as stream:
+        code = subprocess.run(command, stdout=stream, stderr=subprocess.STDOUT, cwd=cache.parent).returncode
+    baked = sorted((cache / "mesh").glob("fluid_mesh_*.bobj.gz"))
+    if code != 0 or not baked:
+        sys.stderr.write("".join(log.read_text(errors="replace").splitlines(keepends=True)[-30:]))
+        raise BakeError(3, f"{arguments.scene}: Blender baked {len(baked)} mesh frames and ended with code {code}; its last lines are above")
+
+
+def parse(argv, insideBlender):
+    parser = argparse.ArgumentParser(prog="bake_blender.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", help="one of: " + ", ".join(SCENES))
+    parser.add_argument("--resolution", type=int, default=48, help="solver cells along the domain's longest side (default %(default)s)")
+    if insideBlender:
+        parser.add_argument("--cache", type=pathlib.Path, required=True)
+    else:
+        parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for <scene>.####.vdb")
+        parser.add_argument("--overwrite", action="store_true", help="replace a sequence that is there already")
+        parser.add_argument("--threads", type=int, default=0, help="Blender's threads, 0 = all (default %(default)s)")
+        parser.add_argument("--blender", default="blender", help="Blender program (default %(default)s)")
+        parser.add_argument("--keep-cache", type=pathlib.Path, help="also copy Blender's own cache to this new folder")
+    arguments = parser.parse_args(argv)
+    if arguments.scene not in SCENES:
+        parser.error(f"scene: got {arguments.scene!r}, expected one of: {', '.join(SCENES)}")
+    if not 16 <= arguments.resolution <= 512:
+        parser.error(f"--resolution: got {arguments.resolution}, expected 16 to 512")
+    return arguments
+
+
+def main():
+    arguments = parse(sys.argv[1:], insideBlender=False)
+    scene = SCENES[arguments.scene]
+    if not arguments.overwrite and any(arguments.out.glob(f"{arguments.scene}.[0-9][0-9][0-9][0-9].vdb")):
+        raise BakeError(2, f"{arguments.out}: has frames of {arguments.scene} already; pass --overwrite to replace them")
+    if arguments.keep_cache and arguments.keep_cache.exists():
+        raise BakeError(2, f"{arguments.keep_cache}: exists already; --keep-cache wants a new folder")
+    with tempfile.TemporaryDirectory(prefix="bake_blender.") as scratch:
+        scratch = pathlib.Path(scratch)
+        cache = scratch / "cache"
+        cache.mkdir()
+        runBlender(arguments, cache)
+        if arguments.keep_cache:
+            shutil.copytree(cache, arguments.keep_cache)
+        staging = scratch / "vdb"
+        staging.mkdir()
+        paths = convert(scene, arguments.scene, cache, arguments.resolution, staging)
+        report(scene, arguments.scene, arguments.resolution, paths)
+        publish(paths, arguments.out, arguments.scene)
+
+
+if __name__ == "__main__":
+    try:
+        import bpy  # noqa: F401  present only when Blender runs this file
+    except ImportError:
+        bpy = None
+    try:
+        if bpy is not None and "--" in sys.argv:
+            bakeInsideBlender(parse(sys.argv[sys.argv.index("--") + 1 :], insideBlender=True))
+        else:
+            main()
+    except BakeError as error:
+        print(f"bake_blender.py: {error}", file=sys.stderr)
+        sys.exit(error.exitCode)
