@@ -21,11 +21,11 @@ using OptionTarget = std::variant<bool*, int*, double*, std::string*, std::array
 struct OptionField {
   std::string key;     ///< name in the shot file, without its table
   OptionTarget target;
-  std::string unit;    ///< "m", "px", "1/s", ...; empty for none
-  std::string help;    ///< one sentence, with its citation where it has one
+  std::string unit = {};  ///< "m", "px", "1/s", ...; empty for none
+  std::string help = {};  ///< one sentence, with its citation where it has one
   double lower = -std::numeric_limits<double>::infinity();  ///< inclusive, per component
   double upper = std::numeric_limits<double>::infinity();   ///< inclusive, per component
-  std::vector<std::string> choices;  ///< if not empty, the strings allowed
+  std::vector<std::string> choices = {};  ///< if not empty, the strings allowed
   bool required = false;             ///< the shot file has to say it
   bool path = false;                 ///< a file name, relative to the shot file
 };
