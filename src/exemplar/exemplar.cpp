@@ -1,0 +1,152 @@
+#include "exemplar/exemplar.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "io/image_file.h"
+
+namespace ebru {
+namespace {
+
+float encode(float linear) {
+  linear = std::max(linear, 0.0f);
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+float decode(float encoded) {
+  encoded = std::max(encoded, 0.0f);
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+/// Weights of Catmull-Rom's four taps at fraction t, and their derivatives.
+void cubicWeights(float t, float w[4]) {
+  const float t2 = t * t, t3 = t2 * t;
+  w[0] = 0.5f * (-t3 + 2.0f * t2 - t);
+  w[1] = 0.5f * (3.0f * t3 - 5.0f * t2 + 2.0f);
+  w[2] = 0.5f * (-3.0f * t3 + 4.0f * t2 + t);
+  w[3] = 0.5f * (t3 - t2);
+}
+
+void cubicDerivatives(float t, float w[4]) {
+  const float t2 = t * t;
+  w[0] = 0.5f * (-3.0f * t2 + 4.0f * t - 1.0f);
+  w[1] = 0.5f * (9.0f * t2 - 10.0f * t);
+  w[2] = 0.5f * (-9.0f * t2 + 8.0f * t + 1.0f);
+  w[3] = 0.5f * (3.0f * t2 - 2.0f * t);
+}
+
+/// The four clamped tap indices around a coordinate in texels, and the fraction between the middle two.
+float locateTaps(float coordinate, int size, int taps[4]) {
+  const float c = std::clamp(coordinate - 0.5f, -1.0f, static_cast<float>(size));
+  const int base = static_cast<int>(std::floor(c));
+  for (int k = 0; k < 4; ++k) taps[k] = std::clamp(base - 1 + k, 0, size - 1);
+  return c - static_cast<float>(base);
+}
+
+}  // namespace
+
+Vec3f linearColour(const Texel& texel) { return {decode(texel[0]), decode(texel[1]), decode(texel[2])}; }
+
+Texel encodedTexel(const Vec3f& linear, float height) {
+  return {encode(linear.x()), encode(linear.y()), encode(linear.z()), height};
+}
+
+Exemplar::Exemplar(const std::filesystem::path& colour, const std::filesystem::path& height) {
+  const LoadedImage image = readImage(colour, true);
+  if (std::min(image.width, image.height) < minimumSize)
+    throw InputError(fmt::format("{}: exemplar too small: got {} x {} texels, expected at least {} x {}; choose a larger "
+                                 "texture.exemplar",
+                                 colour.string(), image.width, image.height, minimumSize, minimumSize));
+  LoadedImage relief;
+  if (!height.empty()) {
+    relief = readImage(height, false);
+    if (relief.width != image.width || relief.height != image.height)
+      throw InputError(fmt::format("{}: size of the height map: got {} x {}, expected {} x {} like {}", height.string(),
+                                   relief.width, relief.height, image.width, image.height, colour.string()));
+    hasHeight_ = true;
+  }
+  std::vector<Texel> texels(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const float* pixel = image.data.data() + i * static_cast<std::size_t>(image.channels);
+    const Vec3f rgb = image.channels >= 3 ? Vec3f(pixel[0], pixel[1], pixel[2]) : Vec3f::Constant(pixel[0]);
+    texels[i] = encodedTexel(rgb, hasHeight_ ? relief.data[i * static_cast<std::size_t>(relief.channels)] : 0.0f);
+  }
+  levels_.push_back({image.width, image.height, std::move(texels)});
+  finish();
+}
+
+Exemplar::Exemplar(int width, int height, std::vector<Texel> texels) {
+  levels_.push_back({width, height, std::move(texels)});
+  finish();
+}
+
+void Exemplar::finish() {
+  while (std::min(levels_.back().width, levels_.back().height) / 2 >= minimumSize) {
+    const int fineLevel = levelCount() - 1;
+    Level coarse{width(fineLevel) / 2, height(fineLevel) / 2, {}};
+    constexpr float tap[4] = {0.125f, 0.375f, 0.375f, 0.125f};
+    for (int y = 0; y < coarse.height; ++y)
+      for (int x = 0; x < coarse.width; ++x) {
+        Texel sum = Texel::Zero();
+        for (int j = 0; j < 4; ++j)
+          for (int i = 0; i < 4; ++i)
+            sum += tap[i] * tap[j] *
+                   texel(fineLevel, std::clamp(2 * x - 1 + i, 0, width(fineLevel) - 1),
+                         std::clamp(2 * y - 1 + j, 0, height(fineLevel) - 1));
+        coarse.texels.push_back(sum);
+      }
+    levels_.push_back(std::move(coarse));
+  }
+  Eigen::Array4d mean = Eigen::Array4d::Zero(), square = Eigen::Array4d::Zero();
+  for (const Texel& t : levels_[0].texels) {
+    mean += t.cast<double>();
+    square += t.cast<double>().square();
+  }
+  const double n = static_cast<double>(levels_[0].texels.size());
+  const Eigen::Array4d variance = (square / n - (mean / n).square()).max(0.0);
+  contrast_ = static_cast<float>(std::sqrt(variance.head<3>().mean()));
+}
+
+Texel Exemplar::sample(int level, const Vec2f& uv) const {
+  int xs[4], ys[4];
+  float wx[4], wy[4];
+  cubicWeights(locateTaps(uv.x(), width(level), xs), wx);
+  cubicWeights(locateTaps(uv.y(), height(level), ys), wy);
+  Texel sum = Texel::Zero();
+  for (int j = 0; j < 4; ++j) {
+    Texel row = Texel::Zero();
+    for (int i = 0; i < 4; ++i) row += wx[i] * texel(level, xs[i], ys[j]);
+    sum += wy[j] * row;
+  }
+  return sum;
+}
+
+Texel Exemplar::sample(int level, const Vec2f& uv, Texel& du, Texel& dv) const {
+  int xs[4], ys[4];
+  float wx[4], wy[4], dx[4], dy[4];
+  const float tx = locateTaps(uv.x(), width(level), xs);
+  const float ty = locateTaps(uv.y(), height(level), ys);
+  cubicWeights(tx, wx);
+  cubicWeights(ty, wy);
+  cubicDerivatives(tx, dx);
+  cubicDerivatives(ty, dy);
+  Texel sum = Texel::Zero();
+  du = dv = Texel::Zero();
+  for (int j = 0; j < 4; ++j) {
+    Texel row = Texel::Zero(), slope = Texel::Zero();
+    for (int i = 0; i < 4; ++i) {
+      const Texel& t = texel(level, xs[i], ys[j]);
+      row += wx[i] * t;
+      slope += dx[i] * t;
+    }
+    sum += wy[j] * row;
+    du += wy[j] * slope;
+    dv += dy[j] * row;
+  }
+  return sum;
+}
+
+}  // namespace ebru

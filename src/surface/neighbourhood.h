@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/vec.h"
+#include "surface/point_graph.h"
+
+namespace ebru {
+
+/// A point of a flattened neighbourhood.
+struct NeighbourhoodPoint {
+  std::uint32_t index;
+  Vec2f displacement;  ///< from the centre, in texels, in the axes asked for
+};
+
+/// The oriented points of a surface, as neighbourhoods are built from them. Spans of equal length.
+struct OrientedPoints {
+  std::span<const Vec3f> positions;
+  std::span<const Vec3f> normals;
+  std::span<const Vec3f> orientations;  ///< unit tangents; the second axis is normal x orientation
+};
+
+/// Flattens the surroundings of points by marching displacements in the orientation field [Kwatra 2007, sec. 5.1]:
+/// ring by ring, a point's displacement is the mean of what its already placed neighbours predict. A step is measured in
+/// the mean of the frames at its two ends and keeps its length.
+/// Holds scratch memory: one object per thread.
+class NeighbourhoodBuilder {
+ public:
+  explicit NeighbourhoodBuilder(std::size_t pointCount) : stamp_(pointCount, 0), order_(pointCount) {}
+
+  /// @param axes  rotates displacements of the centre's frame into the axes of the window
+  /// @param window  width in texels: |components of displacement| < window / 2
+  /// @param texelWorld  metres per texel
+  /// @param result  the centre first; overwritten
+  void build(const OrientedPoints& points, const PointGraph& graph, std::uint32_t centre, const Mat2f& axes,
+             float window, float texelWorld, std::vector<NeighbourhoodPoint>& result);
+
+ private:
+  std::vector<std::uint32_t> stamp_;  ///< which build placed a point last
+  std::vector<std::uint32_t> order_;  ///< its place in `result`
+  std::uint32_t current_ = 0;
+};
+
+}  // namespace ebru

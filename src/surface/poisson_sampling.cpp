@@ -1,0 +1,108 @@
+#include "surface/poisson_sampling.h"
+
+#include <cmath>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "surface/cell_grid.h"
+
+namespace ebru {
+namespace {
+
+struct Dart {
+  Vec3f position, normal;
+};
+
+float triangleArea(const TriangleMesh& mesh, std::size_t t) {
+  const Vec3i& tri = mesh.triangles[t];
+  const Vec3f& a = mesh.positions[tri[0]];
+  return 0.5f * (mesh.positions[tri[1]] - a).cross(mesh.positions[tri[2]] - a).norm();
+}
+
+/// A uniform random point of triangle t.
+Dart throwDart(const TriangleMesh& mesh, std::size_t t, Random& random) {
+  const Vec3i& tri = mesh.triangles[t];
+  const float root = std::sqrt(random.uniform());
+  const float v = random.uniform();
+  const float a = 1.0f - root, b = root * (1.0f - v), c = root * v;
+  Vec3f normal = a * mesh.normals[tri[0]] + b * mesh.normals[tri[1]] + c * mesh.normals[tri[2]];
+  const float length = normal.norm();
+  normal = length > 1e-6f ? Vec3f(normal / length) : mesh.normals[tri[0]];
+  return {a * mesh.positions[tri[0]] + b * mesh.positions[tri[1]] + c * mesh.positions[tri[2]], normal};
+}
+
+/// Number of darts for an expected count that is rarely whole, rounded at random so that the mean is right.
+int dartCount(double expected, Random& random) {
+  return static_cast<int>(expected + random.uniform());
+}
+
+bool crowded(const CellGrid& grid, const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
+             const Dart& dart, float radius) {
+  bool found = false;
+  grid.forEachNear(dart.position, radius, [&](std::uint32_t i) {
+    found = found || ((positions[i] - dart.position).squaredNorm() < radius * radius &&
+                      normals[i].dot(dart.normal) > 0.0f);
+  });
+  return found;
+}
+
+}  // namespace
+
+double surfaceArea(const TriangleMesh& mesh) {
+  return parallelSum(mesh.triangles.size(), [&](std::size_t t) { return triangleArea(mesh, t); });
+}
+
+void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64_t seed, int frame,
+                       SurfaceSamples& samples) {
+  // A saturated set holds about 0.7 samples per spacing^2; some 14 darts for each leave few gaps.
+  const double dartsPerArea = 10.0 / (static_cast<double>(spacingWorld) * spacingWorld);
+  CellGrid grid(spacingWorld, samples.size() + 1024);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    grid.insert(static_cast<std::uint32_t>(i), samples.positions[i]);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Random random(hashCombine(seed, samples.size() ? 1 : 0), frame, t);
+    const int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
+    for (int d = 0; d < darts; ++d) {
+      const Dart dart = throwDart(mesh, t, random);
+      if (crowded(grid, samples.positions, samples.normals, dart, spacingWorld)) continue;
+      grid.insert(static_cast<std::uint32_t>(samples.size()), dart.position);
+      samples.positions.push_back(dart.position);
+      samples.normals.push_back(dart.normal);
+    }
+  }
+}
+
+SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
+                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed,
+                        int frame) {
+  CellGrid grid(gapWorld, positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), positions[i]);
+
+  // Candidates are found concurrently in fixed blocks, then thinned in order.
+  const double dartsPerArea = 4.0 / (static_cast<double>(spacingWorld) * spacingWorld);
+  constexpr std::size_t block = 512;
+  std::vector<std::vector<Dart>> candidates((mesh.triangles.size() + block - 1) / block);
+  parallelBlocks(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      Random random(seed, frame, t);
+      const int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
+      for (int d = 0; d < darts; ++d) {
+        const Dart dart = throwDart(mesh, t, random);
+        if (!crowded(grid, positions, normals, dart, gapWorld)) candidates[begin / block].push_back(dart);
+      }
+    }
+  });
+
+  SurfaceSamples gaps;
+  CellGrid chosen(spacingWorld, 1024);
+  for (const std::vector<Dart>& darts : candidates)
+    for (const Dart& dart : darts) {
+      if (crowded(chosen, gaps.positions, gaps.normals, dart, spacingWorld)) continue;
+      chosen.insert(static_cast<std::uint32_t>(gaps.size()), dart.position);
+      gaps.positions.push_back(dart.position);
+      gaps.normals.push_back(dart.normal);
+    }
+  return gaps;
+}
+
+}  // namespace ebru

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/vec.h"
+#include "fluid/triangle_mesh.h"
+
+namespace ebru {
+
+struct SurfaceSamples {
+  std::vector<Vec3f> positions;  ///< on the mesh, metres
+  std::vector<Vec3f> normals;    ///< unit, interpolated from the mesh's vertices
+  std::size_t size() const { return positions.size(); }
+};
+
+/// Area of a mesh, square metres.
+double surfaceArea(const TriangleMesh& mesh);
+
+/// Adds samples until the surface is covered by a Poisson-disk set: no two closer than `spacingWorld`, no place much
+/// farther than that from one (dart throwing over the triangles). Samples already there are kept and respected, which
+/// gives the nested point sets of [Turk 2001; Kwatra 2007, sec. 4.1]. Samples whose normals differ by more than 90
+/// degrees do not see each other: both sides of a thin sheet are covered.
+/// Deterministic in (mesh, spacing, seed, frame).
+void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64_t seed, int frame,
+                       SurfaceSamples& samples);
+
+/// Places of the surface farther than `gapWorld` from every given point of compatible normal, themselves at least
+/// `spacingWorld` apart; tested on a raster of half a `spacingWorld`. For points that move with the surface.
+SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
+                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed,
+                        int frame);
+
+}  // namespace ebru
