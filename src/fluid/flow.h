@@ -7,9 +7,9 @@
 
 namespace ebru {
 
-/// The flow from frame `from` (time 0) to frame `to` (time 1 frame). Velocity is linear in time between the two; where
-/// only one of them knows a velocity, that one holds alone. Either may be null: then the other's is constant in time.
-/// Keeps references; const members are safe to call concurrently.
+/// The flow from frame `from` (time 0) to frame `to` (time 1 frame). Velocity is linear in time between the
+/// two; where only one of them knows a velocity, that one holds alone. Either may be null: then the other's
+/// is constant in time. Keeps references; const members are safe to call concurrently.
 class Flow {
  public:
   Flow(const FluidFrame* from, const FluidFrame* to);
@@ -17,9 +17,10 @@ class Flow {
   /// Velocity at `time` in [0, 1] frames after `from`. @return false where neither frame knows one.
   bool velocity(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec) const;
 
-  /// RK3 (Ralston) from time 0 to 1, in ceil(speed * dt / voxel) sub-steps, each shorter than a voxel. A point whose
-  /// velocity is exactly zero comes back bit for bit. Where the velocity becomes unknown on the way, the last known
-  /// one is kept.
+  /// RK3 (Ralston) from time 0 to 1, in ceil(speed * dt / voxel) sub-steps, speed being the larger of the two
+  /// frames' at `pWorld` and voxel the smaller of their surfaces'. A point whose velocity is exactly zero
+  /// comes back bit for bit, so does one whose velocity is unknown. Where it becomes unknown on the way, the
+  /// last known one is kept.
   Vec3f forward(const Vec3f& pWorld) const;
   /// The same from time 1 back to 0.
   Vec3f backward(const Vec3f& pWorld) const;

@@ -19,8 +19,8 @@ class VelocityField {
   virtual bool sample(const Vec3f& pWorld, Vec3f& velocityWorldPerSec) const = 0;
 };
 
-/// Immutable once loaded; const members are safe to call concurrently. An empty frame (no fluid) has an empty mesh,
-/// an empty distance grid and a velocity field that may know nothing.
+/// Immutable once loaded; const members are safe to call concurrently. An empty frame (no fluid) has an empty
+/// mesh, an empty distance grid and a velocity field that may know nothing.
 class FluidFrame {
  public:
   int frame = 0;
@@ -38,8 +38,13 @@ class FluidFrame {
 
   /// Closest point on the zero level of the signed distance, by Newton steps along its gradient.
   /// @param normal  unit, out of the fluid
-  /// @return false outside the narrow band or where the steps do not settle within a tenth of a voxel of the zero level
+  /// @return false outside the narrow band or where the steps do not settle within a tenth of a voxel of the
+  /// zero level
   bool closestPoint(const Vec3f& pWorld, Vec3f& position, Vec3f& normal) const;
+
+  /// Unit normal, out of the fluid, of the signed distance's level through `pWorld`: central differences over
+  /// one voxel. @return false, `normal` untouched, outside the narrow band or where the distance has no slope
+  bool normalAt(const Vec3f& pWorld, Vec3f& normal) const;
 };
 
 }  // namespace ebru

@@ -16,7 +16,8 @@ class FluidSequence {
   virtual int firstFrame() const = 0;
   virtual int lastFrame() const = 0;
   /// Reads one frame. Deterministic, safe to call concurrently.
-  /// @throw InputError if the frame is missing, truncated, without its grids, or has a velocity that is not finite or
+  /// @throw InputError if the frame is missing, truncated, without its grids, or has a velocity that is not
+  /// finite or
   ///        not plausible
   virtual std::shared_ptr<const FluidFrame> load(int frame) const = 0;
   /// Human-readable: grids, ranges, units. For `ebru inspect`.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A sparse grid of samples for fast trilinear look-up, free of OpenVDB's headers. Built once per frame from a
-/// VDB (fluid/vdb_*.cpp), then read millions of times.
+/// A sparse grid of samples for fast trilinear look-up, free of OpenVDB's headers. Built once per frame from
+/// a VDB (fluid/vdb_*.cpp), then read millions of times.
 
 #include <cstdint>
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace ebru {
 
-/// Samples sit at world = origin + voxelSize * index, index integer. Axis-aligned, uniform. Blocks of 8^3 cells
-/// store 9^3 samples (one layer shared with each upper neighbour), so that a look-up reads one block only.
-/// Const members are safe to call concurrently.
+/// Samples sit at world = origin + voxelSize * index, index integer. Axis-aligned, uniform. Blocks of 8^3
+/// cells store 9^3 samples (one layer shared with each upper neighbour), so that a look-up reads one block
+/// only. Const members are safe to call concurrently.
 template <int Components>
 class SampledGrid {
  public:
@@ -23,9 +23,15 @@ class SampledGrid {
 
   SampledGrid() = default;
   /// @param lowerBlock, upperBlock  inclusive range of block coordinates (floor(index / 8)) that may be set
-  SampledGrid(const Vec3f& originWorld, float voxelSizeWorld, const Vec3i& lowerBlock, const Vec3i& upperBlock);
+  /// @throw InputError if that range is so large (beyond 2^28 blocks) that its table would not fit
+  SampledGrid(const Vec3f& originWorld, float voxelSizeWorld, const Vec3i& lowerBlock,
+              const Vec3i& upperBlock);
 
   float voxelSizeWorld() const { return voxelSize_; }
+  const Vec3f& originWorld() const { return origin_; }
+  /// Inclusive range of block coordinates that may be set.
+  const Vec3i& lowerBlock() const { return lowerBlock_; }
+  Vec3i upperBlock() const { return lowerBlock_ + tableSize_ - Vec3i::Ones(); }
   bool empty() const { return data_.empty(); }
   Vec3f worldFromIndex(const Vec3i& index) const { return origin_ + voxelSize_ * index.cast<float>(); }
   std::size_t blockCount() const { return data_.size() / (samplesPerBlock * Components); }
@@ -34,6 +40,8 @@ class SampledGrid {
   /// Adds a block (zero-filled) if it is not there. @return its first sample; layout [z][y][x][component].
   /// Pointers are invalidated by the next call. Not thread-safe.
   float* addBlock(const Vec3i& block);
+  /// Makes room for `count` blocks in all, so that adding them does not copy.
+  void reserveBlocks(std::size_t count) { data_.reserve(count * samplesPerBlock * Components); }
   /// A block's samples, or null.
   const float* block(const Vec3i& block) const;
   float* block(const Vec3i& block);
@@ -50,6 +58,9 @@ class SampledGrid {
 
   Vec3f origin_ = Vec3f::Zero();
   float voxelSize_ = 1.0f;
+  float inverseVoxelSize_ = 1.0f;
+  Vec3f lowerIndex_ = Vec3f::Zero();  ///< of the range of look-ups, in samples
+  Vec3f upperIndex_ = Vec3f::Zero();
   Vec3i lowerBlock_ = Vec3i::Zero();
   Vec3i tableSize_ = Vec3i::Zero();
   std::vector<std::int32_t> table_;  ///< block number or -1
