@@ -55,7 +55,7 @@ OptionFields fields(FluidOptions& o) {
       ranged(field("voxel_size", &o.voxel_size, "m", "voxel of the level set made from a formula or a mesh"),
              1e-6, 1e6),
       field("speed", &o.speed, "",
-            "rigid_rotation: rad/s; shear: 1/s; vortex_sphere: factor on the usual deformation of period 3"),
+            "rigid_rotation: rad/s; shear: 1/s; vortex_sphere: 2 is the usual deformation"),
       field("shift", &o.shift, "m", "translation: way per frame"),
       ranged(field("period_frames", &o.period_frames, "frames",
                    "last frame of a procedural scene, and the period of vortex_sphere and merge_split"),

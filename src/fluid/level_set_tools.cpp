@@ -234,18 +234,20 @@ LevelSet levelSetFromBlocks(const std::function<float(const Vec3f&)>& distance,
   parallelFor(blocks.size(), 1, [&](std::size_t b) {
     for (int n = 0; n < 512; ++n) {
       const Vec3i ijk = 8 * blocks[b] + Vec3i(n >> 6, n >> 3 & 7, n & 7);
-      values[b][n] = std::clamp(distance(voxelSizeWorld * ijk.cast<float>()), -band, band);
+      const float d = distance(voxelSizeWorld * ijk.cast<float>());
+      values[b][n] = exactDistance ? std::clamp(d, -band, band) : d;
     }
   });
   FloatGrid::Ptr grid = FloatGrid::create(band);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(voxelSizeWorld));
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  // What is rebuilt keeps its values as they are: clamped, the steep ones would move the zero level.
+  const auto active = [&](float v) { return !exactDistance || std::abs(v) < band; };
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (std::none_of(values[b].begin(), values[b].end(), [&](float v) { return std::abs(v) < band; }))
-      continue;
+    if (std::none_of(values[b].begin(), values[b].end(), active)) continue;
     Leaf* leaf = grid->tree().touchLeaf(Coord(blocks[b].x() * 8, blocks[b].y() * 8, blocks[b].z() * 8));
     for (int n = 0; n < 512; ++n)
-      if (std::abs(values[b][n]) < band)
+      if (active(values[b][n]))
         leaf->setValueOn(n, values[b][n]);
       else
         leaf->setValueOff(n, values[b][n]);

@@ -1,0 +1,24 @@
+#include "fluid/fluid_sequence.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "fluid/procedural_sequence.h"
+#include "fluid/vdb_sequence.h"
+
+namespace ebru {
+
+std::unique_ptr<FluidSequence> openFluidSequence(const FluidOptions& options, double framesPerSecond) {
+  if (!(framesPerSecond > 0.0))
+    throw UsageError(fmt::format("frames per second: got {}, expected more than 0", framesPerSecond));
+  if (options.source == "procedural") return std::make_unique<ProceduralSequence>(options, framesPerSecond);
+  if (options.source == "vdb") {
+    if (options.path.empty())
+      throw UsageError(
+          "fluid.path: got nothing, expected the cache's files; set fluid.path = \"cache/dam.####.vdb\"");
+    return std::make_unique<VdbSequence>(options, framesPerSecond);
+  }
+  throw UsageError(fmt::format("fluid.source: got \"{}\", expected vdb or procedural", options.source));
+}
+
+}  // namespace ebru

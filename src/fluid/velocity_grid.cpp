@@ -1,0 +1,295 @@
+#include "fluid/velocity_grid.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace ebru {
+
+namespace {
+
+constexpr int cellsPerBlock = RawVelocity::cellsPerBlock;
+constexpr int largestReachCells = 32;
+
+enum class Cell : std::uint8_t { unknown, known };
+
+/// Blocks of cells near the surface while they are being filled.
+struct CellBlock {
+  Vec3i block = Vec3i::Zero();
+  std::array<Vec3f, cellsPerBlock> value;
+  std::array<Cell, cellsPerBlock> state;
+  std::array<std::uint8_t, cellsPerBlock> required;  ///< read by look-ups on the surface, or in the fluid
+  int unknownCount = 0;
+};
+
+inline int cellIndex(int x, int y, int z) {
+  return (z * 8 + y) * 8 + x;
+}
+
+/// A box of block coordinates and the number of the block at each of them.
+class BlockTable {
+ public:
+  BlockTable(const Vec3i& lower, const Vec3i& upper)
+      : lower_(lower),
+        size_(upper - lower + Vec3i::Ones()),
+        number_(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), -1) {}
+  int* find(const Vec3i& block) {
+    const Vec3i b = block - lower_;
+    if ((b.array() < 0).any() || (b.array() >= size_.array()).any()) return nullptr;
+    return &number_[(static_cast<std::size_t>(b.z()) * size_.y() + b.y()) * size_.x() + b.x()];
+  }
+  int at(const Vec3i& block) const {
+    const int* number = const_cast<BlockTable*>(this)->find(block);
+    return number ? *number : -1;
+  }
+  const Vec3i& lower() const { return lower_; }
+  Vec3i upper() const { return lower_ + size_ - Vec3i::Ones(); }
+
+ private:
+  Vec3i lower_, size_;
+  std::vector<int> number_;
+};
+
+Vec3i floorDiv8(const Vec3i& v) {
+  return Vec3i(v.x() >> 3, v.y() >> 3, v.z() >> 3);
+}
+
+class Extension {
+ public:
+  Extension(const RawVelocity& raw, const SurfaceGeometry& surface, int reachCells)
+      : raw_(raw), surface_(surface), reach_(reachCells), table_(makeTable()) {}
+
+  SampledGrid<3> run() {
+    addBlocks();
+    requireStencils();
+    parallelFor(blocks_.size(), 4, [&](std::size_t b) { readBlock(blocks_[b]); });
+    extend();
+    if (settleRest()) extend();
+    return samples();
+  }
+
+ private:
+  Vec3i cellBelow(const Vec3f& p) const {
+    const Vec3f index = (p - raw_.originWorld) / raw_.voxelSizeWorld;
+    return index.array().floor().cast<int>();
+  }
+
+  BlockTable makeTable() const {
+    Bounds3f bounds;
+    for (const Vec3f& p : surface_.mesh.positions) bounds.include(p);
+    const Vec3i margin = Vec3i::Constant(reach_ + 1);
+    const Vec3i lower = floorDiv8(cellBelow(bounds.lower) - margin);
+    const Vec3i upper = floorDiv8(cellBelow(bounds.upper) + margin + Vec3i::Ones());
+    SampledGrid<3>(Vec3f::Zero(), 1.0f, lower, upper);  // refuses absurd extents
+    return BlockTable(lower, upper);
+  }
+
+  /// Every block within reach of a vertex, by the box of the vertices in each block.
+  void addBlocks() {
+    struct Box {
+      Vec3i lower, upper;
+    };
+    std::vector<Box> boxes;
+    BlockTable boxOf(table_.lower(), table_.upper());
+    for (const Vec3f& p : surface_.mesh.positions) {
+      const Vec3i cell = cellBelow(p);
+      int& number = *boxOf.find(floorDiv8(cell));
+      if (number < 0) {
+        number = static_cast<int>(boxes.size());
+        boxes.push_back({cell, cell});
+      }
+      Box& box = boxes[number];
+      box.lower = box.lower.cwiseMin(cell);
+      box.upper = box.upper.cwiseMax(cell);
+    }
+    std::vector<Vec3i> wanted;
+    for (const Box& box : boxes) {
+      const Vec3i lower = floorDiv8(box.lower - Vec3i::Constant(reach_));
+      const Vec3i upper = floorDiv8(box.upper + Vec3i::Constant(reach_ + 1));
+      for (int z = lower.z(); z <= upper.z(); ++z)
+        for (int y = lower.y(); y <= upper.y(); ++y)
+          for (int x = lower.x(); x <= upper.x(); ++x) {
+            int& number = *table_.find(Vec3i(x, y, z));
+            if (number >= 0) continue;
+            number = static_cast<int>(wanted.size());
+            wanted.emplace_back(x, y, z);
+          }
+    }
+    blocks_.resize(wanted.size());
+    parallelFor(wanted.size(), 16, [&](std::size_t b) {
+      blocks_[b].block = wanted[b];
+      blocks_[b].required.fill(0);
+    });
+  }
+
+  void requireStencils() {
+    for (const Vec3f& p : surface_.mesh.positions) {
+      const Vec3i cell = cellBelow(p);
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3i c = cell + Vec3i(corner & 1, corner >> 1 & 1, corner >> 2);
+        blocks_[table_.at(floorDiv8(c))].required[cellIndex(c.x() & 7, c.y() & 7, c.z() & 7)] = 1;
+      }
+    }
+  }
+
+  void readBlock(CellBlock& b) const {
+    std::array<std::uint8_t, cellsPerBlock> written;
+    std::array<Vec3f, cellsPerBlock> positions;
+    std::array<float, cellsPerBlock> distance;
+    raw_.read(b.block, b.value.data(), written.data());
+    for (int n = 0; n < cellsPerBlock; ++n) {
+      const Vec3i cell = 8 * b.block + Vec3i(n & 7, n >> 3 & 7, n >> 6);
+      positions[n] = raw_.originWorld + raw_.voxelSizeWorld * cell.cast<float>();
+    }
+    clampedDistance(surface_.levelSet, positions.data(), cellsPerBlock, distance.data());
+    const float layer = std::min(2.0f * raw_.voxelSizeWorld, 0.95f * surface_.bandWorld);
+    b.unknownCount = 0;
+    for (int n = 0; n < cellsPerBlock; ++n) {
+      if (distance[n] <= 0.0f) b.required[n] = 1;
+      const bool deep = distance[n] < -layer;
+      b.state[n] = deep || (b.required[n] && written[n]) ? Cell::known : Cell::unknown;
+      b.unknownCount += b.state[n] == Cell::unknown;
+    }
+  }
+
+  using Neighbours = std::array<const CellBlock*, 27>;
+
+  Neighbours neighboursOf(const CellBlock& b) const {
+    Neighbours around;
+    for (int n = 0; n < 27; ++n) {
+      const int number = table_.at(b.block + Vec3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+      around[n] = number < 0 ? nullptr : &blocks_[number];
+    }
+    return around;
+  }
+
+  struct Filled {
+    int cell;
+    Vec3f value;
+  };
+
+  /// The unknown cells of a block that have known neighbours.
+  void fillLayer(const CellBlock& b, std::vector<Filled>& filled) const {
+    const Neighbours around = neighboursOf(b);
+    const auto anyKnown = [](const CellBlock* n) { return n && n->unknownCount < cellsPerBlock; };
+    if (std::none_of(around.begin(), around.end(), anyKnown)) return;
+    for (int n = 0; n < cellsPerBlock; ++n) {
+      if (b.state[n] == Cell::known) continue;
+      const int x = n & 7, y = n >> 3 & 7, z = n >> 6;
+      Vec3f sum = Vec3f::Zero();
+      float weights = 0.0f;
+      for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) {
+            const int u = x + dx + 8, v = y + dy + 8, w = z + dz + 8;
+            const CellBlock* from = around[((w >> 3) * 3 + (v >> 3)) * 3 + (u >> 3)];
+            if (!from) continue;
+            const int m = cellIndex(u & 7, v & 7, w & 7);
+            if (from->state[m] != Cell::known) continue;
+            const float weight = static_cast<float>(4 >> (std::abs(dx) + std::abs(dy) + std::abs(dz) - 1));
+            sum += weight * from->value[m];
+            weights += weight;
+          }
+      if (weights > 0.0f) filled.push_back({n, sum / weights});
+    }
+  }
+
+  void extend() {
+    std::vector<std::vector<Filled>> filled(blocks_.size());
+    for (int round = 0; round < reach_; ++round) {
+      parallelFor(blocks_.size(), 4, [&](std::size_t b) {
+        filled[b].clear();
+        if (blocks_[b].unknownCount > 0) fillLayer(blocks_[b], filled[b]);
+      });
+      parallelFor(blocks_.size(), 16, [&](std::size_t b) {
+        for (const Filled& f : filled[b]) {
+          blocks_[b].value[f.cell] = f.value;
+          blocks_[b].state[f.cell] = Cell::known;
+        }
+        blocks_[b].unknownCount -= static_cast<int>(filled[b].size());
+      });
+    }
+  }
+
+  /// Fluid that no value reached is at rest. @return whether there was any
+  bool settleRest() {
+    bool any = false;
+    for (CellBlock& b : blocks_)
+      for (int n = 0; n < cellsPerBlock && b.unknownCount > 0; ++n)
+        if (b.state[n] == Cell::unknown && b.required[n]) {
+          b.value[n] = Vec3f::Zero();
+          b.state[n] = Cell::known;
+          --b.unknownCount;
+          any = true;
+        }
+    return any;
+  }
+
+  SampledGrid<3> samples() const {
+    SampledGrid<3> grid(raw_.originWorld, raw_.voxelSizeWorld, table_.lower(), table_.upper());
+    grid.reserveBlocks(blocks_.size());
+    for (const CellBlock& b : blocks_)
+      if (b.unknownCount < cellsPerBlock) grid.addBlock(b.block);
+    constexpr int side = SampledGrid<3>::side;
+    parallelFor(blocks_.size(), 8, [&](std::size_t i) {
+      float* out = grid.block(blocks_[i].block);
+      if (!out) return;
+      const Neighbours around = neighboursOf(blocks_[i]);
+      for (int z = 0; z < side; ++z)
+        for (int y = 0; y < side; ++y)
+          for (int x = 0; x < side; ++x, out += 3) {
+            const CellBlock* from = around[((1 + (z >> 3)) * 3 + 1 + (y >> 3)) * 3 + 1 + (x >> 3)];
+            const int n = cellIndex(x & 7, y & 7, z & 7);
+            const bool known = from && from->state[n] == Cell::known;
+            for (int c = 0; c < 3; ++c)
+              out[c] = known ? from->value[n][c] : std::numeric_limits<float>::quiet_NaN();
+          }
+    });
+    return grid;
+  }
+
+  const RawVelocity& raw_;
+  const SurfaceGeometry& surface_;
+  int reach_;
+  BlockTable table_;
+  std::vector<CellBlock> blocks_;
+};
+
+void requirePlausible(const RawVelocity& raw, const SurfaceGeometry& surface, double framesPerSecond,
+                      const std::string& where) {
+  Bounds3f bounds = raw.boundsWorld;
+  for (const Vec3f& p : surface.mesh.positions) bounds.include(p);
+  const double limit = 4.0 * bounds.size().norm();
+  const double perFrame = raw.maxSpeedWorldPerSec / framesPerSecond;
+  if (perFrame <= limit) return;
+  throw InputError(fmt::format(
+      "{}: velocity: got speeds up to {:.4g} units per second, that is {:.4g} units per frame at {:g} fps, "
+      "expected at most {:.4g} (4 times the extent of the fluid); set fluid.velocity_scale to what turns "
+      "the cache's velocity into units per second",
+      where, raw.maxSpeedWorldPerSec, perFrame, framesPerSecond, limit));
+}
+
+}  // namespace
+
+bool VelocityGrid::sample(const Vec3f& pWorld, Vec3f& velocityWorldPerSec) const {
+  Vec3f v;
+  if (!samples_.sample(pWorld, v) || std::isnan(v.x())) return false;
+  velocityWorldPerSec = v;
+  return true;
+}
+
+std::shared_ptr<const VelocityGrid> extendVelocity(const RawVelocity& raw, const SurfaceGeometry& surface,
+                                                   double framesPerSecond, const std::string& where) {
+  requirePlausible(raw, surface, framesPerSecond, where);
+  const double cellsPerFrame = raw.maxSpeedWorldPerSec / framesPerSecond / raw.voxelSizeWorld;
+  const int reach = static_cast<int>(std::min(std::ceil(cellsPerFrame) + 3.0, double{largestReachCells}));
+  return std::make_shared<VelocityGrid>(Extension(raw, surface, reach).run());
+}
+
+}  // namespace ebru

@@ -1,0 +1,57 @@
+#pragma once
+
+/// From what a solver wrote to a velocity that is known at, around and some way off the surface.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "fluid/fluid_frame.h"
+#include "fluid/level_set_tools.h"
+
+namespace ebru {
+
+/// A solver's velocity, cell-centred, read block by block. Const members are safe to call concurrently.
+class RawVelocity {
+ public:
+  static constexpr int cellsPerBlock = 512;
+  virtual ~RawVelocity() = default;
+
+  float voxelSizeWorld = 0.0f;
+  Vec3f originWorld = Vec3f::Zero();  ///< centre of cell (0, 0, 0)
+  Bounds3f boundsWorld;               ///< of what was written; empty when nothing was
+  float maxSpeedWorldPerSec = 0.0f;   ///< over everything written, or a bound of it
+
+  /// Cells 8 * block + (x, y, z), index [z][y][x].
+  /// @param velocityWorldPerSec  512 vectors; 0 where nothing was written
+  /// @param written  512 flags: 1 where the solver wrote all three components, that is where its voxels are
+  /// active and
+  ///        not zero in all components
+  virtual void read(const Vec3i& block, Vec3f* velocityWorldPerSec, std::uint8_t* written) const = 0;
+};
+
+/// Trilinear velocity over a sparse grid; unknown samples are NaN in all components.
+class VelocityGrid : public VelocityField {
+ public:
+  explicit VelocityGrid(SampledGrid<3> samples) : samples_(std::move(samples)) {}
+  bool sample(const Vec3f& pWorld, Vec3f& velocityWorldPerSec) const override;
+  const SampledGrid<3>& samples() const { return samples_; }
+
+ private:
+  SampledGrid<3> samples_;
+};
+
+/// The solver's values in the fluid and at every cell the look-up on the surface reads; beyond, and where the
+/// solver wrote nothing within two cells of the surface, values extended layer by layer (each cell the mean
+/// of its known neighbours of 26) [Bridson 2015, ch. 4]. They reach max(speed)/fps + 3 cells off the surface,
+/// at most 32, so that a point carried for a frame still finds one. Deeper in the fluid a cell without a
+/// value is at rest. OpenVDB's sweeping extension is not used: it needs a value at every cell along the
+/// surface to start from.
+/// @param surface  with its level set; not empty
+/// @throw InputError if the speed is implausible: over 4 times the diagonal of fluid and velocity per frame
+/// Deterministic for any number of threads.
+std::shared_ptr<const VelocityGrid> extendVelocity(const RawVelocity& raw, const SurfaceGeometry& surface,
+                                                   double framesPerSecond, const std::string& where);
+
+}  // namespace ebru
