@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "core/progress.h"
@@ -15,24 +16,32 @@ struct RenderInput {
   const FluidFrame* previous = nullptr;
   const FluidFrame* current = nullptr;
   const FluidFrame* next = nullptr;
-  const TextureField* texture = nullptr;
+  const TextureField* texture = nullptr;  ///< of `current`; null shows the fluid in its plain colour
 };
 
 /// Ray-traces frames with Embree; colour is resolved at the hit through TextureField::lookup.
+///
+/// Data channels come from one ray through the pixel centre; R G B A from render.spp samples of which each makes one
+/// look-up. Const members are safe to call concurrently.
 class Renderer {
  public:
   /// @param seed  of the shot: pixel sampling
-  /// @throw InputError if an environment image cannot be read
+  /// @param times  where "render: hierarchy" and "render: trace" are timed; may be null
+  /// @throw UsageError for a camera or a light without direction; InputError if an environment image cannot be read
   Renderer(const SceneOptions& options, std::uint64_t seed, PhaseTimes* times);
   ~Renderer();
 
-  /// All channels of docs/aovs.md and the camera's header attributes; the caller adds the shot's.
-  /// Bit-identical for any number of threads.
+  /// All channels of docs/aovs.md and the header attributes worldToCamera, worldToNDC, framesPerSecond, imageCounter and
+  /// ebru:spp; the caller adds the shot's. Bit-identical for any number of threads.
+  /// @throw InputError if the mesh is not one; BugError naming the pixel if a colour is not finite
   ChannelImage render(const RenderInput& input) const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Frames per second as EXR's framesPerSecond: whole numbers, and the NTSC rates (23.976, 29.97, ...) as n * 1000 / 1001.
+ChannelImage::Rational rationalFramesPerSecond(double framesPerSecond);
 
 }  // namespace ebru

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "render/bsdf.h"
+#include "render/render_options.h"
+#include "render/scene.h"
+#include "texturing/texture_field.h"
+
+namespace ebru {
+
+/// What a hit looks like: its material and, on the fluid, its texture.
+struct Appearance {
+  Material material;
+  TextureSample texture;  ///< not valid off the fluid, in a hole, and without a texture
+};
+
+/// Const members are safe to call concurrently.
+class Materials {
+ public:
+  /// @param texture  of the fluid; null gives it its plain colour. Referenced
+  Materials(const SceneOptions& options, const TextureField* texture);
+
+  /// One texture look-up if the hit is on the fluid.
+  /// @param widthWorld  of the pixel across the ray. The footprint on the surface is an ellipse, longer by
+  ///                    1 / cosine; the texture is given the root of its axes' product, stretched by at most 4
+  Appearance at(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
+
+ private:
+  Appearance fluid(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
+  Vec3f groundColour(const Vec3f& position) const;
+
+  const TextureField* texture_;
+  Vec3f fluidColour_;
+  float coatReflectance_, coatRoughness_;
+  GroundOptions ground_;
+  std::vector<Vec3f> obstacleColours_;
+};
+
+}  // namespace ebru

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <limits>
+
+#include "core/vec.h"
+
+namespace ebru {
+
+/// A half-line in world space; `direction` is unit, so that parameters are metres.
+struct Ray {
+  Vec3f origin = Vec3f::Zero();
+  Vec3f direction = Vec3f(0.0f, 0.0f, 1.0f);
+  float farWorld = std::numeric_limits<float>::infinity();
+
+  Vec3f at(float distance) const { return origin + distance * direction; }
+};
+
+/// A ray from the camera with the width of its pixel.
+struct CameraRay {
+  Ray ray;
+  float widthWorld = 0.0f;     ///< at the origin, metres
+  float widthPerMetre = 0.0f;  ///< growth with distance
+
+  float widthAt(float distanceWorld) const { return widthWorld + widthPerMetre * distanceWorld; }
+};
+
+}  // namespace ebru

@@ -1,0 +1,143 @@
+#include "render/scene.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace ebru {
+namespace {
+
+void checkIndices(const TriangleMesh& mesh, const std::string& source) {
+  const int count = static_cast<int>(mesh.positions.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (mesh.triangles[i].minCoeff() < 0 || mesh.triangles[i].maxCoeff() >= count)
+      throw InputError(fmt::format("{}: triangle {}: got vertices {} {} {}, expected 0 to {}; write the mesh again",
+                                   source, i, mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2],
+                                   count - 1));
+}
+
+/// A triangle with the normals of its corners, and a point in it.
+struct Corners {
+  std::array<Vec3f, 3> positions, normals;
+  std::array<float, 3> weights;
+
+  Vec3f interpolate(const std::array<Vec3f, 3>& values) const {
+    return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2];
+  }
+  /// `p`, lifted to the curved surface that the normals suggest, so that the flat triangles do not shade themselves
+  /// where the light grazes [Hanika 2021, "Hacking the Shadow Terminator"]. `side` is 1 or -1 along the normals.
+  Vec3f lift(const Vec3f& p, float side) const {
+    std::array<Vec3f, 3> projected;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float below = std::min(0.0f, side * (p - positions[k]).dot(normals[k]));
+      projected[k] = p - (side * below) * normals[k];
+    }
+    return interpolate(projected);
+  }
+};
+
+}  // namespace
+
+Scene::Scene(const TriangleMesh& fluid, const std::vector<TriangleMesh>& obstacles, const GroundOptions& ground,
+             const std::string& source)
+    : ground_(ground) {
+  checkIndices(fluid, source);
+  meshes_.push_back(&fluid);
+  for (const TriangleMesh& mesh : obstacles) meshes_.push_back(&mesh);
+  for (const TriangleMesh* mesh : meshes_)
+    for (const Vec3f& p : mesh->positions) {
+      const float reach = p.cwiseAbs().maxCoeff();
+      if (std::isfinite(reach)) extentWorld_ = std::max(extentWorld_, reach);
+    }
+  embree_ = std::make_unique<EmbreeScene>(meshes_);
+}
+
+// Coordinates near p carry errors of a few units in the last place of the largest number involved (2^-24 of it);
+// 32 times that clears the surface without a visible gap under contacts.
+float Scene::epsilon(const Vec3f& p) const {
+  return 0x1p-19f * std::max({extentWorld_, p.cwiseAbs().maxCoeff(), 1e-6f});
+}
+
+bool Scene::groundDistance(const Ray& ray, float& distanceWorld) const {
+  if (!ground_.enabled || ray.direction.z() == 0.0f) return false;
+  const double distance = (ground_.height - ray.origin.z()) / ray.direction.z();
+  if (!(distance > 0.0) || !(distance < 1e7) || !(distance < ray.farWorld)) return false;
+  if (ground_.radius > 0.0) {
+    const double x = ray.origin.x() + distance * ray.direction.x() - ground_.centre[0];
+    const double y = ray.origin.y() + distance * ray.direction.y() - ground_.centre[1];
+    if (x * x + y * y > ground_.radius * ground_.radius) return false;
+  }
+  distanceWorld = static_cast<float>(distance);
+  return true;
+}
+
+bool Scene::intersect(const Ray& ray, SurfaceHit& hit) const {
+  EmbreeScene::Hit found;
+  const bool onMesh = embree_->intersect(ray, found);
+  float toGround = 0.0f;
+  const bool onGround = groundDistance(ray, toGround);
+  if (onGround && (!onMesh || toGround < found.distanceWorld)) {
+    hit.distanceWorld = toGround;
+    completeGroundHit(ray, hit);
+    return true;
+  }
+  if (onMesh) completeMeshHit(ray, found, hit);
+  return onMesh;
+}
+
+bool Scene::occluded(const Ray& ray) const {
+  float toGround = 0.0f;
+  return groundDistance(ray, toGround) || embree_->occluded(ray);
+}
+
+void Scene::completeGroundHit(const Ray& ray, SurfaceHit& hit) const {
+  hit.kind = SurfaceKind::ground;
+  hit.position = ray.at(hit.distanceWorld);
+  hit.position.z() = static_cast<float>(ground_.height);
+  hit.normal = Vec3f::UnitZ();
+  hit.facing = ray.direction.z() < 0.0f ? Vec3f(0.0f, 0.0f, 1.0f) : Vec3f(0.0f, 0.0f, -1.0f);
+  hit.shadowOrigin = hit.position + epsilon(hit.position) * hit.facing;
+}
+
+void Scene::completeMeshHit(const Ray& ray, const EmbreeScene::Hit& found, SurfaceHit& hit) const {
+  const TriangleMesh& mesh = *meshes_[found.mesh];
+  hit.kind = found.mesh == 0 ? SurfaceKind::fluid : SurfaceKind::obstacle;
+  hit.obstacle = found.mesh == 0 ? 0 : found.mesh - 1;
+  hit.triangle = found.triangle;
+  hit.barycentric = found.barycentric;
+  hit.distanceWorld = found.distanceWorld;
+
+  Corners corners;
+  const Vec3i& triangle = mesh.triangles[found.triangle];
+  for (int k = 0; k < 3; ++k)
+    corners.positions[static_cast<std::size_t>(k)] = mesh.positions[static_cast<std::size_t>(triangle[k])];
+  corners.weights = {1.0f - found.barycentric.x() - found.barycentric.y(), found.barycentric.x(),
+                     found.barycentric.y()};
+  hit.position = corners.interpolate(corners.positions);
+  Vec3f geometric = (corners.positions[1] - corners.positions[0])
+                        .cross(corners.positions[2] - corners.positions[0])
+                        .stableNormalized();
+  corners.normals.fill(geometric);
+  hit.normal = geometric;
+  if (mesh.normals.size() == mesh.positions.size()) {
+    std::array<Vec3f, 3> normals;
+    for (int k = 0; k < 3; ++k)
+      normals[static_cast<std::size_t>(k)] = mesh.normals[static_cast<std::size_t>(triangle[k])];
+    const Vec3f smooth = corners.interpolate(normals);
+    const float length = smooth.norm();
+    if (length > 1e-6f && std::isfinite(length)) {
+      hit.normal = smooth / length;
+      corners.normals = normals;
+      if (geometric.dot(hit.normal) < 0.0f) geometric = -geometric;
+    }
+  }
+  const float side = geometric.dot(ray.direction) <= 0.0f ? 1.0f : -1.0f;
+  hit.facing = side * hit.normal;
+  hit.shadowOrigin = corners.lift(hit.position, side) + (side * epsilon(hit.position)) * geometric;
+}
+
+}  // namespace ebru
