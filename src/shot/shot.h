@@ -34,6 +34,10 @@ struct Shot {
 /// @throw UsageError listing every problem at once: unknown keys with line and nearest spelling, types, ranges
 Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
+/// Table [fluid] for a cache without a shot: the defaults, `path`, and overrides of that table alone.
+/// @throw UsageError as readShot
+FluidOptions readFluid(const std::string& path, const std::vector<std::string>& overrides);
+
 /// Hash of everything that decides the states (fluid, texture, seed, version) ...
 std::string stateFingerprint(const Shot& shot);
 /// ... and of everything that decides the pixels.

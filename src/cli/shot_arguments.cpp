@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <regex>
+
+#include "cli/commands.h"
+#include "core/error.h"
+#include "shot/frame_range.h"
+#include "shot/spelling.h"
+#include "texturing/texture_method.h"
+
+namespace ebru {
+namespace {
+
+std::string sizeSetting(const std::string& size) {
+  static const std::regex form(R"((\d{1,6})x(\d{1,6}))");
+  std::smatch match;
+  if (!std::regex_match(size, match, form))
+    throw UsageError(fmt::format("--size: got \"{}\", expected WIDTHxHEIGHT, e.g. 640x360", size));
+  return fmt::format("camera.size=[{}, {}]", std::stoi(match[1]), std::stoi(match[2]));
+}
+
+void checkMethod(const Shot& shot) {
+  std::vector<std::string> names;
+  for (const TextureMethodInfo& method : textureMethods()) names.push_back(method.name);
+  if (std::find(names.begin(), names.end(), shot.texture.method) == names.end())
+    throw UsageError(fmt::format("texture.method: got \"{}\", expected one of those that `ebru methods` lists{}",
+                                 shot.texture.method, didYouMean(shot.texture.method, names)));
+}
+
+}  // namespace
+
+Shot ShotArguments::read() const {
+  // After the --set ones, so that the shorter flags win.
+  std::vector<std::string> overrides = settings;
+  if (!method.empty()) overrides.push_back("texture.method=" + method);
+  if (!size.empty()) overrides.push_back(sizeSetting(size));
+  if (spp > 0) overrides.push_back(fmt::format("render.spp={}", spp));
+  if (seed >= 0) overrides.push_back(fmt::format("shot.seed={}", seed));
+  Shot shot = readShot(file, overrides);
+  checkMethod(shot);
+  return shot;
+}
+
+RunOptions ShotArguments::runOptions(const Shot& shot) const {
+  RunOptions options = run;
+  options.out = out.empty() ? std::filesystem::path("out") / shot.shot.name : std::filesystem::path(out);
+  options.states = states;
+  if (!chunk.empty()) std::tie(options.chunk, options.chunks) = parseChunk(chunk);
+  if (resume) options.existing = ExistingFiles::resume;
+  if (overwrite) options.existing = ExistingFiles::overwrite;
+  return options;
+}
+
+void addShotArguments(CLI::App& command, ShotArguments& arguments) {
+  command.add_option("SHOT", arguments.file, "Shot file (.toml); `ebru options` prints what it can say")->required();
+  command.add_option("--set", arguments.settings, "Overrides one value of the shot: table.key=value, light.0.key=value")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--method", arguments.method, "Texture method (`ebru methods`)")->type_name("NAME");
+  command.add_option("--size", arguments.size, "Width and height of the picture in pixels")->type_name("WxH");
+  command.add_option("--spp", arguments.spp, "Samples per pixel")->check(CLI::Range(1, 65536));
+  command.add_option("--seed", arguments.seed, "Seed of all random numbers")->check(CLI::NonNegativeNumber);
+  for (CLI::Option* option : command.get_options())
+    if (option->get_name() != "--set") option->take_last();
+}
+
+void addRunArguments(CLI::App& command, ShotArguments& arguments) {
+  command.add_option("--frames", arguments.run.frames, "Frames: 7 or 1-48, 1-48x2 (every other), 1-48y2 (the rest), "
+                                                       "1-48:8 (staggered), joined with commas")
+      ->take_last();
+  command.add_option("--chunk", arguments.chunk, "Only part i of n of the frames, i from 1")
+      ->type_name("i/n")
+      ->take_last();
+  command.add_option("--out", arguments.out, "Folder of the results; without it out/NAME")
+      ->type_name("DIR")
+      ->take_last();
+  command.add_option("--states", arguments.states,
+                     "Folder of the states, used where they fit this shot; without it OUT/states")
+      ->type_name("DIR")
+      ->take_last();
+  command.add_option("--threads", arguments.run.threads, "Threads; 0 for as many as there are processors")
+      ->check(CLI::Range(0, 4096))
+      ->take_last();
+  CLI::Option* resume = command.add_flag("--resume", arguments.resume, "Make only what is not finished yet");
+  command.add_flag("--overwrite", arguments.overwrite, "Make everything again")->excludes(resume);
+}
+
+}  // namespace ebru

@@ -1,0 +1,84 @@
+#include "shot/fingerprint.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+
+#include "core/random.h"
+#include "shot/option_binding.h"
+#include "shot/shot.h"
+#include "shot/shot_tables.h"
+#include "shot/version.h"
+
+namespace ebru {
+namespace {
+
+/// Keys of [shot] that decide no pixel: the file's name and where the sequence ends.
+bool decidesNothing(const std::string& table, const std::string& key) {
+  return table == "shot" && (key == "name" || key == "last_frame");
+}
+
+/// A path as seen from the shot file, so that a shot may be moved or mounted elsewhere, and what the file holds.
+void addPath(Fingerprint& fingerprint, const std::filesystem::path& path, const std::filesystem::path& folder) {
+  if (path.empty()) {
+    fingerprint.add("");
+    return;
+  }
+  const std::filesystem::path seen = path.lexically_relative(folder.empty() ? "." : folder.lexically_normal());
+  fingerprint.add(seen.empty() ? path.string() : seen.string());
+  std::error_code failed;
+  // A pattern of a frame sequence is no file: its frames are told apart where they are used.
+  if (std::filesystem::is_regular_file(path, failed)) fingerprint.addContent(path);
+}
+
+std::string fingerprintOf(const Shot& constShot, bool statesOnly) {
+  Shot shot = constShot;
+  Fingerprint fingerprint;
+  fingerprint.add(programVersion());
+  for (const ShotTable& table : shotTables()) {
+    if (statesOnly && !table.decidesState) continue;
+    for (std::size_t i = 0; i < table.size(shot); ++i) {
+      fingerprint.add(fmt::format("[{}.{}]", table.name, i));
+      for (const OptionField& field : table.fields(shot, i)) {
+        if (decidesNothing(table.name, field.key)) continue;
+        fingerprint.add(field.key);
+        const auto* path = std::get_if<std::string*>(&field.target);
+        if (field.path && path)
+          addPath(fingerprint, **path, shot.file.parent_path());
+        else
+          fingerprint.add(printOption(field.target));
+      }
+    }
+  }
+  return fingerprint.text();
+}
+
+}  // namespace
+
+Fingerprint& Fingerprint::add(std::string_view text) {
+  add(static_cast<std::uint64_t>(text.size()));
+  for (const char c : text) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+  return *this;
+}
+
+Fingerprint& Fingerprint::add(std::uint64_t number) {
+  for (int i = 0; i < 8; ++i, number >>= 8) hash_ = (hash_ ^ (number & 0xff)) * 0x100000001b3ull;
+  return *this;
+}
+
+Fingerprint& Fingerprint::addContent(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return add("unreadable");
+  std::array<char, 65536> buffer;
+  while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0)
+    add(std::string_view(buffer.data(), static_cast<std::size_t>(stream.gcount())));
+  return *this;
+}
+
+std::string Fingerprint::text() const { return fmt::format("{:016x}", mixBits(hash_)); }
+
+std::string stateFingerprint(const Shot& shot) { return fingerprintOf(shot, true); }
+std::string pictureFingerprint(const Shot& shot) { return fingerprintOf(shot, false); }
+
+}  // namespace ebru

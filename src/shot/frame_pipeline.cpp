@@ -1,0 +1,148 @@
+#include "shot/frame_pipeline.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "core/error.h"
+#include "fluid/frame_pattern.h"
+#include "io/atomic_file.h"
+#include "shot/frame_range.h"
+#include "shot/interrupt.h"
+
+namespace ebru {
+namespace {
+
+/// Hours of work should not end at a folder that cannot be written. Makes nothing.
+void checkWritable(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::path there = std::filesystem::absolute(folder, failed);
+  while (!std::filesystem::exists(there, failed) && there.has_parent_path() && there != there.parent_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, failed))
+    throw OutputError(fmt::format("{}: cannot be written: {} is not a folder; choose another one with --out",
+                                  folder.string(), there.string()));
+  if (access(there.c_str(), W_OK | X_OK) != 0)
+    throw OutputError(fmt::format("{}: cannot be written: {}; choose another folder with --out", folder.string(),
+                                  std::strerror(errno)));
+}
+
+/// Frames missing from the middle of a cache are found before the work on the others begins.
+void checkPresent(const FluidOptions& fluid, const std::vector<int>& frames) {
+  if (fluid.source != "vdb") return;
+  const std::vector<int> present = FramePattern(fluid.path).list();
+  std::vector<int> missing;
+  for (const int f : frames)
+    if (!std::binary_search(present.begin(), present.end(), f)) missing.push_back(f);
+  if (!missing.empty())
+    throw InputError(fmt::format("{}: frames {} are missing; the cache has {}", fluid.path, printFrames(missing),
+                                 printFrames(present)));
+}
+
+StateStore::Policy statePolicy(const RunOptions& options, bool statesMatter) {
+  StateStore::Policy policy;
+  policy.useExisting =
+      options.existing == ExistingFiles::resume || (!options.states.empty() && !statesMatter);
+  policy.keepAll = options.keepStates || statesMatter;
+  return policy;
+}
+
+}  // namespace
+
+FramePipeline::FramePipeline(const Shot& shot, const RunOptions& options, bool statesMatter)
+    : shot_(shot), options_(options), threads_(options.threads), files_(options.out, shot.shot.name),
+      identity_(shot), sequence_(openFluidSequence(shot.fluid, shot.shot.fps)), frames_(chooseFrames()) {
+  const std::filesystem::path stateFolder = options.states.empty() ? files_.states() : options.states;
+  checkWritable(files_.folder());
+  checkWritable(stateFolder);
+  for (const auto& folder : {files_.folder(), files_.preview(0).parent_path(), files_.geometry(0).parent_path(),
+                             stateFolder})
+    removeStaleTemporaries(folder);
+  store_ = std::make_unique<FrameStore>(*sequence_, options.threads != 1, &times_);
+  states_ = std::make_unique<StateStore>(stateFolder, shot.shot.name, statePolicy(options, statesMatter),
+                                         [this](int frame) { return identity_.state(frame); });
+  timeline_ = std::make_unique<TextureTimeline>(shot, *store_, *states_, &times_,
+                                                [this](int frame) { log_.stage(frame, "texture"); });
+}
+
+std::vector<int> FramePipeline::chooseFrames() const {
+  const ShotOptions& s = shot_.shot;
+  const std::string asked =
+      options_.frames.empty() ? fmt::format("{}-{}", s.first_frame, s.last_frame) : options_.frames;
+  std::vector<int> frames = parseFrames(asked);
+  const int first = sequence_->firstFrame(), last = sequence_->lastFrame();
+  const std::string cache = fmt::format("the cache has {} to {}", first, last);
+  if (s.first_frame < first || s.first_frame > last)
+    throw UsageError(
+        fmt::format("{}: shot.first_frame: got {}, but {}", shot_.file.string(), s.first_frame, cache));
+  std::vector<int> outside, before;
+  for (const int f : frames) {
+    if (f < first || f > last) outside.push_back(f);
+    if (f < s.first_frame) before.push_back(f);
+  }
+  if (!outside.empty())
+    throw UsageError(fmt::format("frames {}: got {} outside the cache, but {}", asked, printFrames(outside), cache));
+  if (!before.empty())
+    throw UsageError(fmt::format("frames {}: got {}, expected none before shot.first_frame = {}, where the texture is laid",
+                                 asked, printFrames(before), s.first_frame));
+  checkPresent(shot_.fluid, frames);
+  return chunkOf(frames, options_.chunk, options_.chunks);
+}
+
+std::vector<int> FramePipeline::framesToDo(const std::function<std::filesystem::path(int)>& resultOf,
+                                           const std::function<bool(int)>& finished) {
+  if (options_.existing == ExistingFiles::overwrite) return frames_;
+  std::vector<int> present, missing;
+  std::error_code failed;
+  for (const int f : frames_) {
+    const bool there = options_.existing == ExistingFiles::resume ? finished(f)
+                                                                  : std::filesystem::exists(resultOf(f), failed);
+    (there ? present : missing).push_back(f);
+  }
+  if (options_.existing == ExistingFiles::refuse && !present.empty())
+    throw UsageError(fmt::format("{}: frames {} are there already; --resume makes only what is missing, --overwrite "
+                                 "makes them again",
+                                 resultOf(present.front()).parent_path().string(), printFrames(present)));
+  if (!present.empty()) log_.info(fmt::format("frames {} are done already", printFrames(present)));
+  return missing;
+}
+
+void FramePipeline::forEach(const std::vector<int>& frames, const std::function<void(int)>& work) {
+  // Frames out of order go back in time, and the states on the way are what that starts from.
+  states_->holdBack(!std::is_sorted(frames.begin(), frames.end()));
+  log_.begin(frames.size());
+  for (const int frame : frames) {
+    if (interruptRequested())
+      throw Interrupted(fmt::format("stopped before frame {}; --resume goes on from there", frame));
+    try {
+      work(frame);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw InputError(fmt::format("frame {}: not enough memory; a larger texture.texel_size needs less", frame));
+    } catch (const std::exception& error) {
+      throw BugError(fmt::format("frame {}: {}; re-run: {} --frames {} --overwrite", frame, error.what(),
+                                 options_.command, frame));
+    }
+    log_.frameDone(frame);
+    store_->keepOnly(frame - 1, frame + 2);
+  }
+  states_->holdBack(false);
+  states_->removeSurplus();
+}
+
+void FramePipeline::summarise(std::size_t done, const std::string& what, const std::vector<std::string>& places) {
+  const double wall = log_.elapsedSeconds();
+  log_.finish();
+  if (done > 0) fmt::print("{}\n", printPhases(times_.phases(), wall));
+  fmt::print("{} {} in {}\n", done, what, printDuration(wall));
+  for (const std::string& place : places) fmt::print("  {}\n", place);
+  std::fflush(stdout);
+}
+
+}  // namespace ebru

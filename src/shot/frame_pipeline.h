@@ -1,0 +1,73 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/parallel.h"
+#include "core/progress.h"
+#include "fluid/fluid_sequence.h"
+#include "shot/frame_store.h"
+#include "shot/input_identity.h"
+#include "shot/output_files.h"
+#include "shot/run_log.h"
+#include "shot/run_shot.h"
+#include "shot/state_store.h"
+#include "shot/texture_timeline.h"
+
+namespace ebru {
+
+/// What all runs over a shot share: its frames, its fluid, its texture, where results go and what is said meanwhile.
+/// Not thread-safe.
+class FramePipeline {
+ public:
+  /// Checks all that can be checked before the work begins.
+  /// @param statesMatter  the states are the result (synth): they are all kept
+  /// @throw UsageError if frames are asked for that the cache does not have; InputError; OutputError
+  FramePipeline(const Shot& shot, const RunOptions& options, bool statesMatter);
+
+  const std::vector<int>& frames() const { return frames_; }
+  const OutputFiles& files() const { return files_; }
+  RunLog& log() { return log_; }
+  PhaseTimes& times() { return times_; }
+  InputIdentity& identity() { return identity_; }
+  StateStore& states() { return *states_; }
+
+  /// The frames whose result is not there yet, after the choice between refusing, resuming and overwriting.
+  /// @param resultOf  file of a frame's result
+  /// @param finished  whether that file is whole and of this shot
+  std::vector<int> framesToDo(const std::function<std::filesystem::path(int)>& resultOf,
+                              const std::function<bool(int)>& finished);
+
+  /// Says once whether velocity and surface agree, at the first of the frames.
+  void checkVelocity(int frame);
+
+  /// Calls work(frame) for each, with interruptions and unforeseen errors turned into messages that say how to go on.
+  void forEach(const std::vector<int>& frames, const std::function<void(int)>& work);
+
+  /// @return null outside the cache
+  std::shared_ptr<const FluidFrame> fluid(int frame) { return store_->get(frame); }
+  std::shared_ptr<const TextureField> texture(int frame) { return timeline_->seek(frame); }
+
+  /// Time per phase and where the results are.
+  void summarise(std::size_t done, const std::string& what, const std::vector<std::string>& places);
+
+ private:
+  std::vector<int> chooseFrames() const;
+
+  const Shot& shot_;
+  const RunOptions& options_;
+  ThreadLimit threads_;
+  RunLog log_;
+  PhaseTimes times_;
+  OutputFiles files_;
+  InputIdentity identity_;
+  std::unique_ptr<FluidSequence> sequence_;
+  std::vector<int> frames_;
+  std::unique_ptr<FrameStore> store_;
+  std::unique_ptr<StateStore> states_;
+  std::unique_ptr<TextureTimeline> timeline_;
+};
+
+}  // namespace ebru

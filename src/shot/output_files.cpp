@@ -1,0 +1,73 @@
+#include "shot/output_files.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "io/exr_file.h"
+#include "render/aovs.h"
+#include "shot/version.h"
+
+namespace ebru {
+namespace {
+
+void setAttribute(ChannelImage& image, const std::string& name, ChannelImage::Attribute value) {
+  for (auto& [present, old] : image.attributes)
+    if (present == name) {
+      old = std::move(value);
+      return;
+    }
+  image.attributes.emplace_back(name, std::move(value));
+}
+
+std::string describeVelocity(const FluidOptions& fluid) {
+  if (fluid.source != "vdb") return fluid.source;
+  return fmt::format("{} x {} world/s", fluid.velocity, fluid.velocity_scale);
+}
+
+}  // namespace
+
+OutputFiles::OutputFiles(std::filesystem::path folder, std::string shotName)
+    : folder_(std::move(folder)), name_(std::move(shotName)) {}
+
+std::filesystem::path OutputFiles::picture(int frame) const {
+  return folder_ / fmt::format("{}.{:04}.exr", name_, frame);
+}
+std::filesystem::path OutputFiles::preview(int frame) const {
+  return folder_ / "preview" / fmt::format("{}.{:04}.png", name_, frame);
+}
+std::filesystem::path OutputFiles::geometry(int frame) const {
+  return folder_ / "geometry" / fmt::format("{}.{:04}.ply", name_, frame);
+}
+std::filesystem::path OutputFiles::movie() const { return folder_ / (name_ + ".mp4"); }
+std::filesystem::path OutputFiles::states() const { return folder_ / "states"; }
+std::filesystem::path OutputFiles::picturePattern() const { return folder_ / (name_ + ".####.exr"); }
+std::filesystem::path OutputFiles::previewPattern() const { return folder_ / "preview" / (name_ + ".####.png"); }
+std::filesystem::path OutputFiles::geometryPattern() const { return folder_ / "geometry" / (name_ + ".####.ply"); }
+
+void addShotAttributes(ChannelImage& image, const Shot& shot, const std::string& fingerprint) {
+  setAttribute(image, "ebru:version", std::string(programVersion()));
+  setAttribute(image, "ebru:shot", shot.shot.name);
+  setAttribute(image, "ebru:method", shot.texture.method);
+  setAttribute(image, "ebru:seed", shot.shot.seed);
+  setAttribute(image, "ebru:spp", shot.scene.render.spp);
+  setAttribute(image, "ebru:texelSizeWorld", static_cast<float>(shot.texture.texel_size));
+  setAttribute(image, "ebru:velocity", describeVelocity(shot.fluid));
+  setAttribute(image, "ebru:fingerprint", fingerprint);
+}
+
+bool isFinishedPicture(const std::filesystem::path& path, const std::string& fingerprint) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return false;
+  try {
+    const ChannelImage image = readExr(path);
+    for (const AovInfo& aov : aovTable())
+      if (!image.find(aov.channel)) return false;
+    const auto* written = image.attribute("ebru:fingerprint");
+    const auto* text = written ? std::get_if<std::string>(written) : nullptr;
+    return text && *text == fingerprint;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace ebru

@@ -1,0 +1,118 @@
+#include "shot/ply_export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "io/atomic_file.h"
+
+namespace ebru {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the file is written as the memory is");
+
+#pragma pack(push, 1)
+struct PlyVertex {
+  float position[3], normal[3], st[2];
+  std::uint8_t colour[3];
+  float velocity[3];
+};
+struct PlyFace {
+  std::uint8_t count = 3;
+  std::int32_t vertices[3];
+};
+#pragma pack(pop)
+
+std::string fingerprintComment(const std::string& fingerprint) {
+  return "comment ebru:fingerprint " + fingerprint + "\n";
+}
+
+std::string header(std::size_t vertices, std::size_t faces, const std::string& fingerprint) {
+  std::string text = "ply\nformat binary_little_endian 1.0\n" + fingerprintComment(fingerprint);
+  text += fmt::format("element vertex {}\n", vertices);
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"}) text += fmt::format("property float {}\n", name);
+  for (const char* name : {"red", "green", "blue"}) text += fmt::format("property uchar {}\n", name);
+  for (const char* name : {"vx", "vy", "vz"}) text += fmt::format("property float {}\n", name);
+  return text + fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", faces);
+}
+
+std::uint8_t srgb8(float linear) {
+  const float c = std::clamp(linear, 0.0f, 1.0f);
+  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(encoded * 255.0f));
+}
+
+/// For every vertex one of its triangles and its corner there: what a ray would report at the vertex.
+std::vector<std::pair<std::uint32_t, int>> cornersOf(const TriangleMesh& mesh) {
+  std::vector<std::pair<std::uint32_t, int>> corners(mesh.positions.size(), {0, 0});
+  for (std::size_t t = mesh.triangles.size(); t-- > 0;)
+    for (int c = 0; c < 3; ++c)
+      corners[static_cast<std::size_t>(mesh.triangles[t][c])] = {static_cast<std::uint32_t>(t), c};
+  return corners;
+}
+
+std::vector<PlyVertex> texturedVertices(const FluidFrame& frame, const TextureField& texture) {
+  const TriangleMesh& mesh = frame.mesh;
+  const auto corners = cornersOf(mesh);
+  std::vector<PlyVertex> vertices(mesh.positions.size());
+  parallelFor(vertices.size(), 1024, [&](std::size_t i) {
+    SurfacePoint point;
+    point.position = mesh.positions[i];
+    point.normal = mesh.normals[i];
+    point.triangle = corners[i].first;
+    point.barycentric = Vec2f(corners[i].second == 1 ? 1.0f : 0.0f, corners[i].second == 2 ? 1.0f : 0.0f);
+    const TextureSample sample = texture.lookup(point);
+    Vec3f velocity = Vec3f::Zero();
+    if (frame.velocity) frame.velocity->sample(point.position, velocity);
+    PlyVertex& vertex = vertices[i];
+    for (int k = 0; k < 3; ++k) {
+      vertex.position[k] = point.position[k];
+      vertex.normal[k] = point.normal[k];
+      vertex.colour[k] = srgb8(sample.colour[k]);
+      vertex.velocity[k] = velocity[k];
+    }
+    for (int k = 0; k < 2; ++k) vertex.st[k] = sample.st[k];
+  });
+  return vertices;
+}
+
+template <class T>
+void writeArray(std::ofstream& out, const std::vector<T>& values) {
+  out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+}
+
+}  // namespace
+
+void writeTexturedPly(const std::filesystem::path& path, const FluidFrame& frame, const TextureField& texture,
+                      const std::string& fingerprint) {
+  const std::vector<PlyVertex> vertices = texturedVertices(frame, texture);
+  std::vector<PlyFace> faces(frame.mesh.triangles.size());
+  for (std::size_t t = 0; t < faces.size(); ++t)
+    for (int c = 0; c < 3; ++c) faces[t].vertices[c] = frame.mesh.triangles[t][c];
+  const std::string head = header(vertices.size(), faces.size(), fingerprint);
+  writeAtomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out.write(head.data(), static_cast<std::streamsize>(head.size()));
+    writeArray(out, vertices);
+    writeArray(out, faces);
+    out.close();
+    if (!out) throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+  });
+}
+
+bool isFinishedPly(const std::filesystem::path& path, const std::string& fingerprint) {
+  std::ifstream in(path, std::ios::binary);
+  std::string head(1024, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find(fingerprintComment(fingerprint)) != std::string::npos;
+}
+
+}  // namespace ebru

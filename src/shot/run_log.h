@@ -1,0 +1,50 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "core/progress.h"
+
+namespace ebru {
+
+/// What a run says while it works: log lines and progress on stderr. On a terminal the progress is one line that is
+/// written over; elsewhere one plain line per frame. Not thread-safe.
+class RunLog {
+ public:
+  RunLog();
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  void info(const std::string& message);
+  void warn(const std::string& message);
+
+  /// @param total  frames this run will finish
+  void begin(std::size_t total);
+  /// "frame 12: texture"; `stage` says what is being done.
+  void stage(int frame, const std::string& stage);
+  /// A frame is on disk.
+  void frameDone(int frame);
+  double elapsedSeconds() const;
+  /// Ends the progress line, so that other output can follow.
+  void finish() { clearLine(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double remainingSeconds() const;
+  void clearLine();
+
+  bool terminal_;
+  bool lineOpen_ = false;
+  std::size_t total_ = 0, done_ = 0;
+  Clock::time_point start_ = Clock::now(), frameStart_ = Clock::now();
+};
+
+/// "9 s", "3 min 20 s", "2 h 05 min".
+std::string printDuration(double seconds);
+
+/// Name, calls, seconds and share of `wallSeconds` per phase, the slowest first; ends with what no phase covers.
+std::string printPhases(const std::vector<PhaseTimes::Phase>& phases, double wallSeconds);
+
+}  // namespace ebru

@@ -1,0 +1,123 @@
+#include "shot/run_shot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/exr_file.h"
+#include "io/image_file.h"
+#include "render/renderer.h"
+#include "shot/frame_pipeline.h"
+#include "shot/interrupt.h"
+#include "shot/movie.h"
+#include "shot/ply_export.h"
+
+namespace ebru {
+namespace {
+
+/// A preview of every frame of the run, those included that were there already, and the movie of them.
+class Previews {
+ public:
+  explicit Previews(FramePipeline& pipeline) : pipeline_(pipeline) {}
+
+  void write(int frame, const ChannelImage& image) {
+    const PhaseTimer timer(&pipeline_.times(), "write preview");
+    writePreviewPng(pipeline_.files().preview(frame), image);
+  }
+
+  void complete() {
+    std::error_code failed;
+    for (const int frame : pipeline_.frames())
+      if (!std::filesystem::exists(pipeline_.files().preview(frame), failed))
+        write(frame, readExr(pipeline_.files().picture(frame)));
+  }
+
+  /// @return the movie's name, or an empty string without one
+  std::string makeMovie(double framesPerSecond) {
+    std::vector<int> frames = pipeline_.frames();
+    std::sort(frames.begin(), frames.end());
+    std::vector<std::filesystem::path> pictures;
+    for (const int frame : frames) pictures.push_back(pipeline_.files().preview(frame));
+    const PhaseTimer timer(&pipeline_.times(), "write movie");
+    const std::string problem = writeMovie(pipeline_.files().movie(), pictures, framesPerSecond);
+    if (problem.empty()) return pipeline_.files().movie().string();
+    pipeline_.log().warn(fmt::format("{}: no movie: {}; the frames are complete",
+                                     pipeline_.files().movie().string(), problem));
+    return {};
+  }
+
+ private:
+  FramePipeline& pipeline_;
+};
+
+}  // namespace
+
+void renderShot(const Shot& shot, const RunOptions& options) {
+  catchInterrupts();
+  FramePipeline pipeline(shot, options, false);
+  const OutputFiles& files = pipeline.files();
+  const std::vector<int> frames = pipeline.framesToDo(
+      [&](int f) { return files.picture(f); },
+      [&](int f) { return isFinishedPicture(files.picture(f), pipeline.identity().picture(f)); });
+  Previews previews(pipeline);
+
+  if (!frames.empty()) {
+    const Renderer renderer(shot.scene, static_cast<std::uint64_t>(shot.shot.seed), &pipeline.times());
+    pipeline.checkVelocity(frames.front());
+    pipeline.forEach(frames, [&](int frame) {
+      const auto texture = pipeline.texture(frame);
+      pipeline.log().stage(frame, "picture");
+      const auto previous = pipeline.fluid(frame - 1), current = pipeline.fluid(frame),
+                 next = pipeline.fluid(frame + 1);
+      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get()});
+      addShotAttributes(image, shot, pipeline.identity().picture(frame));
+      pipeline.log().stage(frame, "writing");
+      {
+        const PhaseTimer timer(&pipeline.times(), "write picture");
+        writeExr(files.picture(frame), image);
+      }
+      if (options.preview) previews.write(frame, image);
+    });
+  }
+
+  std::vector<std::string> places = {"pictures  " + files.picturePattern().string()};
+  if (options.preview && !pipeline.frames().empty()) {
+    previews.complete();
+    places.push_back("previews  " + files.previewPattern().string());
+    // Every chunk would write the same movie, with its own frames only.
+    const std::string movie = options.chunks == 1 ? previews.makeMovie(shot.shot.fps) : "";
+    if (!movie.empty()) places.push_back("movie     " + movie);
+  }
+  pipeline.summarise(frames.size(), frames.size() == 1 ? "frame" : "frames", places);
+}
+
+void synthesiseShot(const Shot& shot, const RunOptions& options) {
+  catchInterrupts();
+  FramePipeline pipeline(shot, options, true);
+  StateStore& states = pipeline.states();
+  const std::vector<int> frames =
+      pipeline.framesToDo([&](int f) { return states.pathOf(f); }, [&](int f) { return states.valid(f); });
+  if (!frames.empty()) pipeline.checkVelocity(frames.front());
+  pipeline.forEach(frames, [&](int frame) { pipeline.texture(frame); });
+  pipeline.summarise(frames.size(), frames.size() == 1 ? "state" : "states",
+                     {"states  " + states.pathOf(shot.shot.first_frame).parent_path().string()});
+}
+
+void exportShot(const Shot& shot, const RunOptions& options) {
+  catchInterrupts();
+  FramePipeline pipeline(shot, options, false);
+  const OutputFiles& files = pipeline.files();
+  const std::vector<int> frames = pipeline.framesToDo(
+      [&](int f) { return files.geometry(f); },
+      [&](int f) { return isFinishedPly(files.geometry(f), pipeline.identity().picture(f)); });
+  pipeline.forEach(frames, [&](int frame) {
+    const auto texture = pipeline.texture(frame);
+    pipeline.log().stage(frame, "geometry");
+    const PhaseTimer timer(&pipeline.times(), "write geometry");
+    writeTexturedPly(files.geometry(frame), *pipeline.fluid(frame), *texture, pipeline.identity().picture(frame));
+  });
+  pipeline.summarise(frames.size(), frames.size() == 1 ? "surface" : "surfaces",
+                     {"surfaces  " + files.geometryPattern().string()});
+}
+
+}  // namespace ebru

@@ -1,0 +1,36 @@
+#pragma once
+
+/// Running a shot: from the frames asked for to files on disk.
+
+#include <filesystem>
+#include <string>
+
+#include "shot/shot.h"
+
+namespace ebru {
+
+enum class ExistingFiles { refuse, resume, overwrite };
+
+struct RunOptions {
+  std::string frames;            ///< as parseFrames; empty for all of the shot
+  int chunk = 1, chunks = 1;     ///< which part of the frames, counted from 1
+  std::filesystem::path out;     ///< folder of the results
+  std::filesystem::path states;  ///< folder of the states; empty for OUT/states. Naming it means using what is there
+  ExistingFiles existing = ExistingFiles::refuse;
+  bool keepStates = false;
+  bool preview = false;          ///< PNGs and a movie too
+  int threads = 0;               ///< 0 for the machine's
+  std::string command;           ///< repeats this run; for messages
+};
+
+/// Frames to OUT/NAME.####.exr. Pixels depend on neither the frames asked for nor the threads.
+/// @throw UsageError, InputError, OutputError; Interrupted after SIGINT or SIGTERM. Files on disk are whole in every case.
+void renderShot(const Shot& shot, const RunOptions& options);
+
+/// The states alone, all of them kept. Throws as renderShot.
+void synthesiseShot(const Shot& shot, const RunOptions& options);
+
+/// Textured surfaces to OUT/geometry/NAME.####.ply. Throws as renderShot.
+void exportShot(const Shot& shot, const RunOptions& options);
+
+}  // namespace ebru

@@ -1,0 +1,66 @@
+#include "shot/shot_tables.h"
+
+namespace ebru {
+namespace {
+
+template <class Options>
+ShotTable single(std::string name, std::string help, bool decidesState, Options& (*options)(Shot&)) {
+  ShotTable table;
+  table.name = std::move(name);
+  table.help = std::move(help);
+  table.decidesState = decidesState;
+  table.resize = [](Shot&, std::size_t) {};
+  table.size = [](const Shot&) { return std::size_t{1}; };
+  table.fields = [options](Shot& shot, std::size_t) { return fields(options(shot)); };
+  return table;
+}
+
+template <class Options>
+ShotTable array(std::string name, std::string help, std::vector<Options>& (*options)(Shot&)) {
+  ShotTable table;
+  table.name = std::move(name);
+  table.help = std::move(help);
+  table.isArray = true;
+  table.resize = [options](Shot& shot, std::size_t count) { options(shot).resize(count); };
+  table.size = [options](const Shot& shot) { return options(const_cast<Shot&>(shot)).size(); };
+  table.fields = [options](Shot& shot, std::size_t index) { return fields(options(shot).at(index)); };
+  return table;
+}
+
+}  // namespace
+
+OptionFields fields(ShotOptions& options) {
+  return {
+      {.key = "name", .target = &options.name, .unit = "",
+       .help = "Names the files: NAME.####.exr. Without it the shot file's own name."},
+      {.key = "first_frame", .target = &options.first_frame, .unit = "frame",
+       .help = "Where the texture is laid. Every later frame depends on it."},
+      {.key = "last_frame", .target = &options.last_frame, .unit = "frame", .help = "Inclusive."},
+      {.key = "fps", .target = &options.fps, .unit = "1/s",
+       .help = "Frames per second: frame f is at f / fps seconds.", .lower = 0.001, .upper = 100000.0},
+      {.key = "seed", .target = &options.seed, .unit = "",
+       .help = "Of every random number. The same shot and seed give the same bits.", .lower = 0},
+  };
+}
+
+const std::vector<ShotTable>& shotTables() {
+  static const std::vector<ShotTable> tables = {
+      single<ShotOptions>("shot", "What is rendered.", true, [](Shot& s) -> auto& { return s.shot; }),
+      single<FluidOptions>("fluid", "Where the fluid comes from.", true,
+                           [](Shot& s) -> auto& { return s.fluid; }),
+      single<TextureOptions>("texture", "What it is covered with, and how.", true,
+                             [](Shot& s) -> auto& { return s.texture; }),
+      single<CameraOptions>("camera", "Where it is seen from.", false,
+                            [](Shot& s) -> auto& { return s.scene.camera; }),
+      single<RenderOptions>("render", "How the picture is taken.", false,
+                            [](Shot& s) -> auto& { return s.scene.render; }),
+      array<LightOptions>("light", "One light each.", [](Shot& s) -> auto& { return s.scene.lights; }),
+      single<GroundOptions>("ground", "A plane below the fluid.", false,
+                            [](Shot& s) -> auto& { return s.scene.ground; }),
+      array<ObstacleOptions>("obstacle", "Solid things that stand in the fluid; they are drawn, not simulated.",
+                             [](Shot& s) -> auto& { return s.scene.obstacles; }),
+  };
+  return tables;
+}
+
+}  // namespace ebru

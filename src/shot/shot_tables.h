@@ -1,0 +1,27 @@
+#pragma once
+
+/// The one list of the tables of a shot file. Reading, fingerprints and the reference walk over it.
+
+#include <functional>
+#include <string>
+
+#include "core/options.h"
+#include "shot/shot.h"
+
+namespace ebru {
+
+struct ShotTable {
+  std::string name;           ///< "texture", or "light" for [[light]]
+  std::string help;           ///< one sentence for the reference
+  bool isArray = false;       ///< [[name]]: any number of them
+  bool decidesState = false;  ///< the texture's states depend on it, not the pictures alone
+  /// Makes the array as long as the file's; does nothing for a single table.
+  std::function<void(Shot&, std::size_t)> resize;
+  std::function<std::size_t(const Shot&)> size;  ///< 1 for a single table
+  /// Fields of the element `index`; they point into the shot.
+  std::function<OptionFields(Shot&, std::size_t index)> fields;
+};
+
+const std::vector<ShotTable>& shotTables();
+
+}  // namespace ebru

@@ -1,0 +1,65 @@
+#include "shot/texture_timeline.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "shot/interrupt.h"
+
+namespace ebru {
+
+TextureTimeline::TextureTimeline(const Shot& shot, FrameStore& frames, StateStore& states, PhaseTimes* times,
+                                 std::function<void(int)> onStep)
+    : shot_(shot), frames_(frames), states_(states), times_(times), onStep_(std::move(onStep)) {}
+
+std::shared_ptr<const TextureField> TextureTimeline::seek(int frame) {
+  if (method_ && current_ > frame) method_.reset();
+  if (!method_ || current_ < frame) {
+    const int after = method_ ? current_ : shot_.shot.first_frame - 1;
+    if (const auto found = states_.newest(after, frame))
+      loadState(*found);
+    else if (!method_)
+      restart();
+  }
+  while (current_ < frame) step();
+  return method_->field();
+}
+
+void TextureTimeline::restart() {
+  const int first = shot_.shot.first_frame;
+  onStep_(first);
+  method_ = makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_);
+  method_->start(*frames_.get(first));
+  current_ = first;
+  save();
+}
+
+void TextureTimeline::loadState(const StateStore::Found& found) {
+  onStep_(found.frame);
+  method_ = makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_);
+  const PhaseTimer timer(times_, "load state");
+  method_->load(found.reader);
+  current_ = found.frame;
+}
+
+void TextureTimeline::step() {
+  if (interruptRequested())
+    throw Interrupted(fmt::format("stopped after the texture of frame {}; --resume goes on from there", current_));
+  const int next = current_ + 1;
+  onStep_(next);
+  const auto from = frames_.get(current_), to = frames_.get(next);
+  // Read what the step after this one needs while this one computes.
+  frames_.keepOnly(current_ - 1, next + 2);
+  frames_.prefetch(next + 1);
+  method_->advance(*from, *to);
+  current_ = next;
+  save();
+}
+
+void TextureTimeline::save() {
+  const PhaseTimer timer(times_, "save state");
+  StateWriter writer;
+  method_->save(writer);
+  states_.save(current_, writer);
+}
+
+}  // namespace ebru

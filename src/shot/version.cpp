@@ -1,0 +1,7 @@
+#include "shot/version.h"
+
+namespace ebru {
+
+const char* programVersion() { return EBRU_VERSION; }
+
+}  // namespace ebru
