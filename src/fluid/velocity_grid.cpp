@@ -174,29 +174,63 @@ class Extension {
     Vec3f value;
   };
 
+  static constexpr int haloSide = 10;
+  using Halo = std::array<std::uint8_t, haloSide * haloSide * haloSide>;
+
+  /// 1 at each cell of the block and of the layer around it that is known, else 0.
+  static Halo knownAround(const Neighbours& around) {
+    Halo halo;
+    halo.fill(0);
+    for (int z = -1; z <= 8; ++z)
+      for (int y = -1; y <= 8; ++y) {
+        const int first = (((z + 8) >> 3) * 3 + ((y + 8) >> 3)) * 3;
+        const int row = cellIndex(0, y & 7, z & 7);
+        std::uint8_t* out = &halo[((z + 1) * haloSide + y + 1) * haloSide];
+        if (const CellBlock* b = around[first]) out[0] = b->state[row + 7] == Cell::known;
+        if (const CellBlock* b = around[first + 1])
+          for (int x = 0; x < 8; ++x) out[x + 1] = b->state[row + x] == Cell::known;
+        if (const CellBlock* b = around[first + 2]) out[9] = b->state[row] == Cell::known;
+      }
+    return halo;
+  }
+
+  /// Each byte becomes the OR of itself and its neighbours at +-stride.
+  static Halo spread(const Halo& in, int stride) {
+    Halo out = in;
+    const int count = static_cast<int>(in.size());
+    for (int i = stride; i < count; ++i) out[i] |= in[i - stride];
+    for (int i = 0; i < count - stride; ++i) out[i] |= in[i + stride];
+    return out;
+  }
+
+  /// Mean of a cell's known neighbours.
+  static Vec3f meanAround(const Neighbours& around, const Halo& known, int x, int y, int z) {
+    Vec3f sum = Vec3f::Zero();
+    float weights = 0.0f;
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+          if (!known[((z + dz + 1) * haloSide + y + dy + 1) * haloSide + x + dx + 1]) continue;
+          const int u = x + dx + 8, v = y + dy + 8, w = z + dz + 8;
+          const CellBlock& from = *around[((w >> 3) * 3 + (v >> 3)) * 3 + (u >> 3)];
+          const float weight = static_cast<float>(8 >> (std::abs(dx) + std::abs(dy) + std::abs(dz)));
+          sum += weight * from.value[cellIndex(u & 7, v & 7, w & 7)];
+          weights += weight;
+        }
+    return sum / weights;
+  }
+
   /// The unknown cells of a block that have known neighbours.
   void fillLayer(const CellBlock& b, std::vector<Filled>& filled) const {
     const Neighbours around = neighboursOf(b);
     const auto anyKnown = [](const CellBlock* n) { return n && n->unknownCount < cellsPerBlock; };
     if (std::none_of(around.begin(), around.end(), anyKnown)) return;
+    const Halo known = knownAround(around);
+    const Halo touched = spread(spread(spread(known, 1), haloSide), haloSide * haloSide);
     for (int n = 0; n < cellsPerBlock; ++n) {
-      if (b.state[n] == Cell::known) continue;
       const int x = n & 7, y = n >> 3 & 7, z = n >> 6;
-      Vec3f sum = Vec3f::Zero();
-      float weights = 0.0f;
-      for (int dz = -1; dz <= 1; ++dz)
-        for (int dy = -1; dy <= 1; ++dy)
-          for (int dx = -1; dx <= 1; ++dx) {
-            const int u = x + dx + 8, v = y + dy + 8, w = z + dz + 8;
-            const CellBlock* from = around[((w >> 3) * 3 + (v >> 3)) * 3 + (u >> 3)];
-            if (!from) continue;
-            const int m = cellIndex(u & 7, v & 7, w & 7);
-            if (from->state[m] != Cell::known) continue;
-            const float weight = static_cast<float>(4 >> (std::abs(dx) + std::abs(dy) + std::abs(dz) - 1));
-            sum += weight * from->value[m];
-            weights += weight;
-          }
-      if (weights > 0.0f) filled.push_back({n, sum / weights});
+      const int h = ((z + 1) * haloSide + y + 1) * haloSide + x + 1;
+      if (!known[h] && touched[h]) filled.push_back({n, meanAround(around, known, x, y, z)});
     }
   }
 
