@@ -18,14 +18,21 @@ double luminance(const Vec3f& colour) {
   return 0.2126 * colour.x() + 0.7152 * colour.y() + 0.0722 * colour.z();
 }
 
-/// Index of the cell of a running sum into which `target` falls, and how far into it.
-std::size_t findCell(const double* sums, std::size_t count, double target, double& within) {
-  const std::size_t cell =
-      std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(sums, sums + count, target) - sums), count - 1);
-  const double before = cell ? sums[cell - 1] : 0.0;
-  const double size = sums[cell] - before;
-  within = size > 0.0 ? std::clamp((target - before) / size, 0.0, 1.0) : 0.5;
+/// Index of the cell of a running sum up to 1 into which `target` falls, and how far into it.
+int findCell(const float* sums, int count, float target, float& within) {
+  const int cell = std::min(static_cast<int>(std::upper_bound(sums, sums + count, target) - sums), count - 1);
+  const float before = cell ? sums[cell - 1] : 0.0f;
+  const float size = sums[cell] - before;
+  within = size > 0.0f ? std::clamp((target - before) / size, 0.0f, 1.0f) : 0.5f;
   return cell;
+}
+
+/// Running sums of `weights` divided by their total, which is returned; all zero if that is.
+double accumulate(const double* weights, int count, float* sums) {
+  double total = 0.0, sum = 0.0;
+  for (int i = 0; i < count; ++i) total += weights[i];
+  for (int i = 0; i < count; ++i) sums[i] = total > 0.0 ? static_cast<float>((sum += weights[i]) / total) : 0.0f;
+  return total;
 }
 
 }  // namespace
@@ -47,73 +54,52 @@ Environment::Environment(const LightOptions& options)
   pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const float* p = image.data.data() + i * static_cast<std::size_t>(image.channels);
-    const Vec3f value(p[0], p[1], p[2]);
-    if (value.minCoeff() < 0.0f)
-      throw InputError(fmt::format("{}: environment image: got {} in pixel ({}, {}), expected no negative light; clamp "
-                                   "it at 0",
-                                   options.image, value.minCoeff(), i % static_cast<std::size_t>(width_),
-                                   i / static_cast<std::size_t>(width_)));
-    pixels_[i] = value.cwiseProduct(colour);
+    // Resampled pictures undershoot slightly beside bright spots.
+    const Vec3f value = Vec3f(p[0], p[1], p[2]).cwiseMax(0.0f);
+    pixels_[i].radiance = value.cwiseProduct(colour);
   }
   buildDistribution();
 }
 
 void Environment::buildDistribution() {
-  std::vector<double> rows(static_cast<std::size_t>(height_));
+  for (int y = 0; y <= height_; ++y) rowCosine_.push_back(static_cast<float>(std::cos(pi * y / height_)));
   conditional_.resize(pixels_.size());
-  double total = 0.0;
+  std::vector<double> rows, row(static_cast<std::size_t>(width_));
   for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) row[static_cast<std::size_t>(x)] = luminance(pixels_[at(x, y)].radiance);
     const double solidAngle = std::cos(pi * y / height_) - std::cos(pi * (y + 1) / height_);
-    double row = 0.0;
-    for (int x = 0; x < width_; ++x) conditional_[at(x, y)] = row += solidAngle * luminance(pixels_[at(x, y)]);
-    rows[static_cast<std::size_t>(y)] = total += row;
+    rows.push_back(solidAngle * accumulate(row.data(), width_, &conditional_[at(0, y)]));
   }
-  if (total > 0.0)
-    marginal_ = std::move(rows);
-  else
-    conditional_.clear();
+  std::vector<float> marginal(rows.size());
+  const double total = accumulate(rows.data(), height_, marginal.data());
+  if (!(total > 0.0)) return;
+  marginal_ = std::move(marginal);
+  for (Arriving& pixel : pixels_)
+    pixel.pdf = static_cast<float>(luminance(pixel.radiance) * width_ / (2.0 * pi * total));
 }
 
-void Environment::pixelOf(const Vec3f& towards, int& x, int& y) const {
-  const double azimuth = std::atan2(towards.x(), towards.y()) + rotation_;
-  double across = azimuth / (2.0 * pi) + 0.5;
+Environment::Arriving Environment::from(const Vec3f& towards) const {
+  if (pixels_.empty()) return {constant_, 0.0f};
+  constexpr float turn = static_cast<float>(2.0 * pi);
+  float across = (std::atan2(towards.x(), towards.y()) + rotation_) / turn + 0.5f;
   across -= std::floor(across);
-  const double down = std::acos(std::clamp(static_cast<double>(towards.z()), -1.0, 1.0)) / pi;
-  x = std::min(static_cast<int>(across * width_), width_ - 1);
-  y = std::min(static_cast<int>(down * height_), height_ - 1);
-}
-
-Vec3f Environment::radiance(const Vec3f& towards) const {
-  if (pixels_.empty()) return constant_;
-  int x, y;
-  pixelOf(towards, x, y);
+  const float down = std::acos(std::clamp(towards.z(), -1.0f, 1.0f)) / static_cast<float>(pi);
+  const int x = std::min(static_cast<int>(across * static_cast<float>(width_)), width_ - 1);
+  const int y = std::min(static_cast<int>(down * static_cast<float>(height_)), height_ - 1);
   return pixels_[at(x, y)];
 }
 
-float Environment::pdf(const Vec3f& towards) const {
-  if (marginal_.empty()) return 0.0f;
-  int x, y;
-  pixelOf(towards, x, y);
-  return static_cast<float>(luminance(pixels_[at(x, y)]) * width_ / (2.0 * pi * marginal_.back()));
-}
-
 Environment::Sample Environment::sample(const Vec2f& u) const {
-  Sample result;
-  if (marginal_.empty()) return result;
-  double down, across;
-  const int y = static_cast<int>(findCell(marginal_.data(), marginal_.size(), u.y() * marginal_.back(), down));
-  const double* row = conditional_.data() + at(0, y);
-  const int x = static_cast<int>(
-      findCell(row, static_cast<std::size_t>(width_), u.x() * row[width_ - 1], across));
+  float down, across;
+  const int y = findCell(marginal_.data(), height_, u.y(), down);
+  const int x = findCell(&conditional_[at(0, y)], width_, u.x(), across);
   // Uniform in solid angle within the pixel: linear in the cosine of the polar angle.
-  const double top = std::cos(pi * y / height_), bottom = std::cos(pi * (y + 1) / height_);
-  const double z = top + down * (bottom - top);
-  const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
-  const double azimuth = 2.0 * pi * ((x + across) / width_ - 0.5) - rotation_;
-  result.towards = Vec3d(radius * std::sin(azimuth), radius * std::cos(azimuth), z).cast<float>();
-  result.radiance = pixels_[at(x, y)];
-  result.pdf = static_cast<float>(luminance(result.radiance) * width_ / (2.0 * pi * marginal_.back()));
-  return result;
+  const float top = rowCosine_[static_cast<std::size_t>(y)], bottom = rowCosine_[static_cast<std::size_t>(y) + 1];
+  const float z = top + down * (bottom - top);
+  const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
+  const float azimuth =
+      static_cast<float>(2.0 * pi) * ((static_cast<float>(x) + across) / static_cast<float>(width_) - 0.5f) - rotation_;
+  return {Vec3f(radius * std::sin(azimuth), radius * std::cos(azimuth), z), pixels_[at(x, y)]};
 }
 
 }  // namespace ebru

@@ -46,17 +46,19 @@ class DirectLightIntegrator : public Integrator {
     const float pdf = bsdf.pdf(towards);
     Vec3f light = Vec3f::Zero();
     if (reflected.maxCoeff() > 0.0f && pdf > 0.0f)
-      for (const Environment& environment : environments)
-        light += environment.radiance(towards) / (pdf + environment.pdf(towards));
+      for (const Environment& environment : environments) {
+        const Environment::Arriving arriving = environment.from(towards);
+        light += arriving.radiance / (pdf + arriving.pdf);
+      }
     Vec3f sum = reflected.cwiseProduct(light);
     if (sum.maxCoeff() > 0.0f && !visible(hit, towards)) sum.setZero();
 
     for (const Environment& environment : environments) {
       if (!environment.importanceSampled()) continue;
       const Environment::Sample sample = environment.sample(sampler.next());
-      if (!(sample.pdf > 0.0f)) continue;
-      const Vec3f value = bsdf.evaluate(sample.towards).cwiseProduct(sample.radiance) /
-                          (sample.pdf + bsdf.pdf(sample.towards));
+      if (!(sample.light.pdf > 0.0f)) continue;
+      const Vec3f value = bsdf.evaluate(sample.towards).cwiseProduct(sample.light.radiance) /
+                          (sample.light.pdf + bsdf.pdf(sample.towards));
       if (value.maxCoeff() > 0.0f && visible(hit, sample.towards)) sum += value;
     }
     return sum;

@@ -40,7 +40,7 @@ Lights::Lights(std::vector<LightOptions> options) {
 
 Vec3f Lights::background(const Vec3f& towards) const {
   Vec3f sum = Vec3f::Zero();
-  for (const Environment& environment : environments) sum += environment.radiance(towards);
+  for (const Environment& environment : environments) sum += environment.from(towards).radiance;
   return sum;
 }
 

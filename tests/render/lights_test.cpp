@@ -46,11 +46,11 @@ Vec3f brightDirection(double rotationDeg) {
 }
 
 TEST_F(EnvironmentImage, MiddleColumnIsPlusYAndRotationIsCounterClockwise) {
-  EXPECT_EQ(Environment(options_).radiance(brightDirection(0.0)).x(), 100.0f);
-  EXPECT_EQ(Environment(options_).radiance(brightDirection(40.0)).x(), 0.25f);
+  EXPECT_EQ(Environment(options_).from(brightDirection(0.0)).radiance.x(), 100.0f);
+  EXPECT_EQ(Environment(options_).from(brightDirection(40.0)).radiance.x(), 0.25f);
   options_.rotation_deg = 40.0;
-  // A quarter turn counter-clockwise takes +y to -x: smaller azimuth as measured here.
-  EXPECT_EQ(Environment(options_).radiance(brightDirection(40.0)).x(), 100.0f);
+  // Counter-clockwise from above takes +y towards -x: to a smaller azimuth as measured here.
+  EXPECT_EQ(Environment(options_).from(brightDirection(40.0)).radiance.x(), 100.0f);
 }
 
 TEST_F(EnvironmentImage, SamplesAgreeWithLookUpAndDensity) {
@@ -63,14 +63,14 @@ TEST_F(EnvironmentImage, SamplesAgreeWithLookUpAndDensity) {
   for (std::uint32_t i = 0; i < n; ++i) {
     sampler.start(i);
     const auto sample = environment.sample(sampler.next());
-    ASSERT_GT(sample.pdf, 0.0f);
+    ASSERT_GT(sample.light.pdf, 0.0f);
     // A sample on the border of a pixel may be looked up in its neighbour.
-    if (sample.radiance == environment.radiance(sample.towards)) {
-      EXPECT_FLOAT_EQ(sample.pdf, environment.pdf(sample.towards));
+    if (sample.light.radiance == environment.from(sample.towards).radiance) {
+      EXPECT_FLOAT_EQ(sample.light.pdf, environment.from(sample.towards).pdf);
     }
-    solidAngle += 1.0 / sample.pdf;
-    red += sample.radiance.x() / sample.pdf;
-    bright += sample.radiance.x() > 1.0f;
+    solidAngle += 1.0 / sample.light.pdf;
+    red += sample.light.radiance.x() / sample.light.pdf;
+    bright += sample.light.radiance.x() > 1.0f;
   }
   EXPECT_NEAR(solidAngle / n, 4.0 * M_PI, 0.05);
   const double pixel = 2.0 * M_PI / 16.0 * (std::cos(3.0 * M_PI / 8.0) - std::cos(4.0 * M_PI / 8.0));
