@@ -10,22 +10,17 @@ namespace ebru {
 void addInspectCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "inspect", "Says what is in a shot or in VDB files, and whether surface and velocity agree");
-  const auto arguments = std::make_shared<ShotArguments>();
-  const auto frames = std::make_shared<std::string>();
-  const auto fps = std::make_shared<double>(24.0);
-  command->add_option("FILE", arguments->file, "Shot file, VDB file, or pattern such as dam.####.vdb")->required();
-  command->add_option("--frames", *frames, "Frames to look at; without it the first, and a few for the velocity");
-  command->add_option("--fps", *fps, "Frames per second of VDB files (a shot says it itself)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--set", arguments->settings, "Overrides one value of the shot; [fluid] for VDB files, too")
+  const auto options = std::make_shared<InspectOptions>();
+  command->add_option("FILE", options->file, "Shot file, VDB file, or pattern such as dam.####.vdb")->required();
+  command->add_option("--frames", options->frames, "Frames to look at; without it the first")->take_last();
+  command->add_option("--fps", options->fps, "Frames per second of VDB files; a shot says its own")
+      ->check(CLI::PositiveNumber)
+      ->take_last();
+  command->add_option("--set", options->settings, "Overrides one value of the shot; of [fluid] for VDB files")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->callback([arguments, frames, fps, &action] {
-    action = [arguments, frames, fps] {
-      fmt::print("{}", inspect(inspectedShot(arguments->file, *fps, arguments->settings), *frames));
-    };
-  });
+  command->callback([options, &action] { action = [options] { fmt::print("{}", inspect(*options)); }; });
 }
 
 }  // namespace ebru

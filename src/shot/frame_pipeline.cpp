@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "fluid/frame_pattern.h"
+#include "fluid/velocity_check.h"
 #include "io/atomic_file.h"
 #include "shot/frame_range.h"
 #include "shot/interrupt.h"
@@ -110,6 +111,18 @@ std::vector<int> FramePipeline::framesToDo(const std::function<std::filesystem::
                                  resultOf(present.front()).parent_path().string(), printFrames(present)));
   if (!present.empty()) log_.info(fmt::format("frames {} are done already", printFrames(present)));
   return missing;
+}
+
+void FramePipeline::checkVelocity(const std::vector<int>& frames) {
+  const PhaseTimer timer(&times_, "check velocity");
+  const auto [lowest, highest] = std::minmax_element(frames.begin(), frames.end());
+  const int last = std::min(*highest + 1, sequence_->lastFrame());
+  // Each pair costs two frames of reading; a long run can afford a second opinion.
+  const VelocityCheck check = ebru::checkVelocity(*sequence_, *lowest, last, frames.size() < 8 ? 1 : 2);
+  if (isWarning(check))
+    log_.warn(describe(check));
+  else
+    log_.info(describe(check));
 }
 
 void FramePipeline::forEach(const std::vector<int>& frames, const std::function<void(int)>& work) {

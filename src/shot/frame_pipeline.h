@@ -40,8 +40,8 @@ class FramePipeline {
   std::vector<int> framesToDo(const std::function<std::filesystem::path(int)>& resultOf,
                               const std::function<bool(int)>& finished);
 
-  /// Says once whether velocity and surface agree, at the first of the frames.
-  void checkVelocity(int frame);
+  /// Says whether velocity and surface agree, in the middle of these frames. @throw InputError
+  void checkVelocity(const std::vector<int>& frames);
 
   /// Calls work(frame) for each, with interruptions and unforeseen errors turned into messages that say how to go on.
   void forEach(const std::vector<int>& frames, const std::function<void(int)>& work);

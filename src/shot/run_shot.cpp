@@ -63,7 +63,7 @@ void renderShot(const Shot& shot, const RunOptions& options) {
 
   if (!frames.empty()) {
     const Renderer renderer(shot.scene, static_cast<std::uint64_t>(shot.shot.seed), &pipeline.times());
-    pipeline.checkVelocity(frames.front());
+    pipeline.checkVelocity(frames);
     pipeline.forEach(frames, [&](int frame) {
       const auto texture = pipeline.texture(frame);
       pipeline.log().stage(frame, "picture");
@@ -97,7 +97,7 @@ void synthesiseShot(const Shot& shot, const RunOptions& options) {
   StateStore& states = pipeline.states();
   const std::vector<int> frames =
       pipeline.framesToDo([&](int f) { return states.pathOf(f); }, [&](int f) { return states.valid(f); });
-  if (!frames.empty()) pipeline.checkVelocity(frames.front());
+  if (!frames.empty()) pipeline.checkVelocity(frames);
   pipeline.forEach(frames, [&](int frame) { pipeline.texture(frame); });
   pipeline.summarise(frames.size(), frames.size() == 1 ? "state" : "states",
                      {"states  " + states.pathOf(shot.shot.first_frame).parent_path().string()});
