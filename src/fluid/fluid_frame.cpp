@@ -41,18 +41,24 @@ bool FluidFrame::normalAt(const Vec3f& pWorld, Vec3f& normal) const {
 bool FluidFrame::closestPoint(const Vec3f& pWorld, Vec3f& position, Vec3f& normal) const {
   constexpr int maxSteps = 12;
   const float settled = 1e-4f * voxelSizeWorld;
+  const float farAway = 0.25f * voxelSizeWorld;
   const float accepted = 0.1f * voxelSizeWorld;
   Vec3f p = pWorld;
   SampledGrid<1>::Value distance;
   Eigen::Matrix<float, 1, 3> gradient;
   if (!signedDistance.sampleWithGradient(p, distance, gradient)) return false;
   for (int step = 0; step < maxSteps && std::abs(distance[0]) > settled; ++step) {
-    const float squared = gradient.squaredNorm();
-    // Outside the band the samples are constant and point nowhere.
-    if (!(squared > 0.01f)) return false;
-    // A distance has gradient 1; a flatter one comes from a ridge, where the full Newton step would
-    // overshoot.
-    p -= gradient.transpose() * (distance[0] / std::max(squared, 0.25f));
+    Vec3f n;
+    if (std::abs(distance[0]) > farAway && centralNormal(signedDistance, p, n)) {
+      // The error of the direction counts in proportion to the way: take the better normal for the long step.
+      p -= distance[0] * n;
+    } else {
+      const float squared = gradient.squaredNorm();
+      // Outside the band the samples are constant and point nowhere.
+      if (!(squared > 0.01f)) return false;
+      // A distance has gradient 1; a flatter one comes from a ridge, where the full Newton step would overshoot.
+      p -= gradient.transpose() * (distance[0] / std::max(squared, 0.25f));
+    }
     if (!signedDistance.sampleWithGradient(p, distance, gradient)) return false;
   }
   if (!(std::abs(distance[0]) <= accepted)) return false;

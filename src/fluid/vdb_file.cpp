@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -180,6 +182,42 @@ class VdbVelocity : public RawVelocity {
   }
 };
 
+/// Centred: all three at one place modulo whole voxels. Staggered: each half a voxel lower along its own
+/// axis.
+/// @return false if the samples of the three grids do not lie so; otherwise sets shift
+bool fits(VdbVelocity& velocity, const std::array<Lattice, 3>& lattices, bool staggered,
+          const Vec3d& cellOrigin) {
+  const double dx = lattices[0].voxelSizeWorld;
+  for (int c = 0; c < 3; ++c) {
+    if (std::abs(lattices[c].voxelSizeWorld - dx) > 1e-4 * dx) return false;
+    Vec3d offset = (lattices[c].originWorld - cellOrigin) / dx;
+    if (staggered) offset[c] += 0.5;
+    const Vec3d whole = offset.array().round();
+    if ((offset - whole).cwiseAbs().maxCoeff() > 1e-2) return false;
+    velocity.shift[c] =
+        Coord(-static_cast<int>(whole.x()), -static_cast<int>(whole.y()), -static_cast<int>(whole.z()));
+  }
+  return true;
+}
+
+void placeComponents(VdbVelocity& velocity, const std::array<Lattice, 3>& lattices, bool staggeredClass,
+                     const std::string& where) {
+  const double dx = lattices[0].voxelSizeWorld;
+  Vec3d cellOrigin = lattices[0].originWorld;
+  velocity.staggered = staggeredClass;
+  if (!fits(velocity, lattices, false, cellOrigin)) {
+    cellOrigin.x() += 0.5 * dx;
+    velocity.staggered = true;
+    if (!fits(velocity, lattices, true, cellOrigin))
+      throw InputError(
+          fmt::format("{}: placement of .x .y .z: got three unrelated transforms, expected one voxel size "
+                      "and samples at the cells' centres or on their lower faces; resample them",
+                      where));
+  }
+  velocity.voxelSizeWorld = static_cast<float>(dx);
+  velocity.originWorld = cellOrigin.cast<float>();
+}
+
 std::string gridWhere(const std::string& path, const std::string& name) {
   return fmt::format("{}: grid \"{}\"", path, name);
 }
@@ -200,6 +238,29 @@ int likeliness(const VdbGridInfo& grid, bool velocity) {
   if (grid.type != "float") return 0;
   return grid.gridClass == "level set" ? 3 : n == "phi" || n == "surface" || n == "sdf" ? 2 : 0;
 }
+
+/// Where a file's table of contents says its grids end. OpenVDB itself reads past the end of a file without a
+/// word.
+class ContentsReader : public openvdb::io::Archive {
+ public:
+  /// @return 0 for a file written as a stream, which has no table
+  std::int64_t end(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    readHeader(in);
+    setFormatVersion(in);
+    openvdb::MetaMap meta;
+    meta.readMeta(in);
+    if (!inputHasGridOffsets()) return 0;
+    std::int64_t last = 0;
+    for (std::int32_t count = readGridCount(in); count > 0 && in; --count) {
+      openvdb::io::GridDescriptor descriptor;
+      descriptor.read(in);
+      last = std::max<std::int64_t>(last, descriptor.getEndPos());
+      descriptor.seekToEnd(in);
+    }
+    return last;
+  }
+};
 
 }  // namespace
 
@@ -225,6 +286,9 @@ VdbFile::VdbFile(const std::string& path) : path_(path) {
   try {
     impl_ = std::make_unique<Impl>(path);
     impl_->file.open(/*delayLoad=*/false);
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
+    if (const std::int64_t end = ContentsReader().end(path); size < end)
+      throw openvdb::IoError(fmt::format("it ends at byte {}, its contents at {}", size, end));
     for (auto it = impl_->file.beginName(); it != impl_->file.endName(); ++it) {
       VdbGridInfo info{it.gridName(), "unknown", "unknown"};
       try {
@@ -232,7 +296,7 @@ VdbFile::VdbFile(const std::string& path) : path_(path) {
         info.type = grid->valueType();
         info.gridClass = openvdb::GridBase::gridClassToString(grid->getGridClass());
       } catch (const openvdb::Exception&) {
-        // A type this build does not know; it is listed and never read.
+        // Listed all the same, and never read.
       }
       grids_.push_back(info);
     }
@@ -351,34 +415,7 @@ std::unique_ptr<RawVelocity> VdbFile::readVelocity(const std::string& name, doub
   }
   velocity->maxSpeedWorldPerSec = size * largest.norm();
 
-  // Centred: all three at one place modulo whole voxels. Staggered: each half a voxel lower along its own
-  // axis.
-  const double dx = lattices[0].voxelSizeWorld;
-  const auto fits = [&](bool staggered, const Vec3d& cellOrigin) {
-    for (int c = 0; c < 3; ++c) {
-      if (std::abs(lattices[c].voxelSizeWorld - dx) > 1e-4 * dx) return false;
-      Vec3d offset = (lattices[c].originWorld - cellOrigin) / dx;
-      if (staggered) offset[c] += 0.5;
-      const Vec3d whole = offset.array().round();
-      if ((offset - whole).cwiseAbs().maxCoeff() > 1e-2) return false;
-      velocity->shift[c] =
-          Coord(-static_cast<int>(whole.x()), -static_cast<int>(whole.y()), -static_cast<int>(whole.z()));
-    }
-    return true;
-  };
-  Vec3d cellOrigin = lattices[0].originWorld;
-  velocity->staggered = staggeredClass;
-  if (!fits(false, cellOrigin)) {
-    cellOrigin.x() += 0.5 * dx;
-    velocity->staggered = true;
-    if (!fits(true, cellOrigin))
-      throw InputError(
-          fmt::format("{}: placement of .x .y .z: got three unrelated transforms, expected one voxel size "
-                      "and samples at the cells' centres or on their lower faces; resample them",
-                      where));
-  }
-  velocity->voxelSizeWorld = static_cast<float>(dx);
-  velocity->originWorld = cellOrigin.cast<float>();
+  placeComponents(*velocity, lattices, staggeredClass, where);
   return velocity;
 }
 

@@ -24,7 +24,7 @@ struct CellBlock {
   Vec3i block = Vec3i::Zero();
   std::array<Vec3f, cellsPerBlock> value;
   std::array<Cell, cellsPerBlock> state;
-  std::array<std::uint8_t, cellsPerBlock> required;  ///< read by look-ups on the surface, or in the fluid
+  std::array<std::uint8_t, cellsPerBlock> required;  ///< read by look-ups in the fluid and on its surface
   int unknownCount = 0;
 };
 
@@ -128,13 +128,18 @@ class Extension {
     });
   }
 
+  /// Marks the cells that a look-up on the surface reads. A triangle is about a surface voxel wide, so what
+  /// it touches lies within one of a vertex.
   void requireStencils() {
+    const Vec3f reach = Vec3f::Constant(surface_.voxelSizeWorld);
     for (const Vec3f& p : surface_.mesh.positions) {
-      const Vec3i cell = cellBelow(p);
-      for (int corner = 0; corner < 8; ++corner) {
-        const Vec3i c = cell + Vec3i(corner & 1, corner >> 1 & 1, corner >> 2);
-        blocks_[table_.at(floorDiv8(c))].required[cellIndex(c.x() & 7, c.y() & 7, c.z() & 7)] = 1;
-      }
+      const Vec3i lower = cellBelow(p - reach), upper = cellBelow(p + reach) + Vec3i::Ones();
+      for (int z = lower.z(); z <= upper.z(); ++z)
+        for (int y = lower.y(); y <= upper.y(); ++y)
+          for (int x = lower.x(); x <= upper.x(); ++x) {
+            const int number = table_.at(floorDiv8(Vec3i(x, y, z)));
+            if (number >= 0) blocks_[number].required[cellIndex(x & 7, y & 7, z & 7)] = 1;
+          }
     }
   }
 
@@ -148,10 +153,12 @@ class Extension {
       positions[n] = raw_.originWorld + raw_.voxelSizeWorld * cell.cast<float>();
     }
     clampedDistance(surface_.levelSet, positions.data(), cellsPerBlock, distance.data());
-    const float layer = std::min(2.0f * raw_.voxelSizeWorld, 0.95f * surface_.bandWorld);
+    const float known = 0.95f * surface_.bandWorld;  // beyond, the distance is clamped
+    const float layer = std::min(2.0f * raw_.voxelSizeWorld, known);
+    const float stencil = std::min(1.75f * raw_.voxelSizeWorld, known);  // of a look-up in the fluid
     b.unknownCount = 0;
     for (int n = 0; n < cellsPerBlock; ++n) {
-      if (distance[n] <= 0.0f) b.required[n] = 1;
+      if (distance[n] < stencil) b.required[n] = 1;
       const bool deep = distance[n] < -layer;
       b.state[n] = deep || (b.required[n] && written[n]) ? Cell::known : Cell::unknown;
       b.unknownCount += b.state[n] == Cell::unknown;
