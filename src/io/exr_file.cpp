@@ -65,7 +65,8 @@ struct SetAttribute {
 };
 
 half toHalf(float value) {
-  if (std::isfinite(value)) value = std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX));
+  if (std::isfinite(value))
+    value = std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX));
   return half(value);
 }
 
@@ -105,15 +106,25 @@ std::vector<char> encode(const std::string& name, const ChannelImage& image) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& got) {
-  throw InputError(fmt::format("{}: cannot be read as EXR: got {}, expected a complete scan-line or tiled OpenEXR "
-                               "picture; render it again or name another file",
-                               path.string(), got));
+  throw InputError(
+      fmt::format("{}: cannot be read as EXR: got {}, expected a complete scan-line or tiled OpenEXR "
+                  "picture; render it again or name another file",
+                  path.string(), got));
 }
 
 void readAttributes(const Imf::Header& header, ChannelImage& image) {
-  static constexpr std::array<std::string_view, 12> structural{
-      "channels",           "compression",       "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio",
-      "screenWindowCenter", "screenWindowWidth", "tiles",      "type",          "name",      "chunkCount"};
+  static constexpr std::array<std::string_view, 12> structural{"channels",
+                                                               "compression",
+                                                               "dataWindow",
+                                                               "displayWindow",
+                                                               "lineOrder",
+                                                               "pixelAspectRatio",
+                                                               "screenWindowCenter",
+                                                               "screenWindowWidth",
+                                                               "tiles",
+                                                               "type",
+                                                               "name",
+                                                               "chunkCount"};
   for (auto it = header.begin(); it != header.end(); ++it) {
     const std::string name = it.name();
     if (std::find(structural.begin(), structural.end(), name) != structural.end()) continue;
@@ -125,8 +136,7 @@ void readAttributes(const Imf::Header& header, ChannelImage& image) {
     } else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
       image.attributes.emplace_back(name, real->value());
     } else if (const auto* rational = dynamic_cast<const Imf::RationalAttribute*>(&attribute)) {
-      image.attributes.emplace_back(name,
-                                    ChannelImage::Rational{rational->value().n, rational->value().d});
+      image.attributes.emplace_back(name, ChannelImage::Rational{rational->value().n, rational->value().d});
     } else if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&attribute)) {
       Mat4d value;
       for (int row = 0; row < 4; ++row)
@@ -157,9 +167,8 @@ ChannelImage decode(const std::filesystem::path& path) {
   }
   Imf::FrameBuffer frame;
   for (ChannelImage::Channel& channel : image.channels)
-    frame.insert(channel.name,
-                 Imf::Slice::Make(Imf::FLOAT, channel.data.data(), window, sizeof(float),
-                                  sizeof(float) * static_cast<std::size_t>(width)));
+    frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.data.data(), window, sizeof(float),
+                                                sizeof(float) * static_cast<std::size_t>(width)));
   file.setFrameBuffer(frame);
   file.readPixels(window.min.y, window.max.y);
   readAttributes(header, image);

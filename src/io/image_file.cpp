@@ -14,10 +14,10 @@
 namespace ebru {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& got, const std::string& expected,
-                         const std::string& next) {
-  throw InputError(fmt::format("{}: cannot be read as an image: got {}, expected {}; {}", path.string(), got, expected,
-                               next));
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& got,
+                         const std::string& expected, const std::string& next) {
+  throw InputError(fmt::format("{}: cannot be read as an image: got {}, expected {}; {}", path.string(), got,
+                               expected, next));
 }
 
 float linearFromSrgb(float value) {
@@ -39,7 +39,8 @@ void checkFinite(const std::filesystem::path& path, const LoadedImage& image) {
     const std::size_t pixel = i / channels;
     refuse(path,
            fmt::format("{} in channel {} of pixel ({}, {})", image.data[i], i % channels,
-                       pixel % static_cast<std::size_t>(image.width), pixel / static_cast<std::size_t>(image.width)),
+                       pixel % static_cast<std::size_t>(image.width),
+                       pixel / static_cast<std::size_t>(image.width)),
            "finite values", "replace NaN and infinity in the image");
   }
 }
@@ -62,8 +63,8 @@ std::vector<unsigned char> encodePng(const std::filesystem::path& path, const Ch
   const auto output = OIIO::ImageOutput::create("png", &memory);
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  if (!output || !output->open(name, spec) ||
-      !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !output->close())
+  if (!output || !output->open(name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) ||
+      !output->close())
     throw OutputError(fmt::format("{}: cannot be encoded as PNG: got \"{}\"", path.string(),
                                   output ? output->geterror() : OIIO::geterror()));
   return bytes;
@@ -85,7 +86,9 @@ LoadedImage readImage(const std::filesystem::path& path, bool toLinear) {
   constexpr int largestSide = 1 << 16;
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.width > largestSide ||
       spec.height > largestSide || spec.depth > 1)
-    refuse(path, fmt::format("{} x {} x {} pixels of {} channels", spec.width, spec.height, spec.depth, spec.nchannels),
+    refuse(path,
+           fmt::format("{} x {} x {} pixels of {} channels", spec.width, spec.height, spec.depth,
+                       spec.nchannels),
            "1 to 65536 pixels a side", next);
 
   LoadedImage image;

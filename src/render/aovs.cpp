@@ -31,9 +31,11 @@ const std::array<AovInfo, aovCount>& aovTable() {
       {"texture.s", float32, "", "exemplar coordinate in 0 to 1, to the right; -1 in a hole"},
       {"texture.t", float32, "", "exemplar coordinate in 0 to 1, down the image; -1 in a hole"},
       {"texture.age", float32, "frames", "since this piece of texture was laid"},
-      {"texture.distortion", float32, "", "largest stretch or squash of the texture, 1 is isometric; 0 in a hole"},
+      {"texture.distortion", float32, "",
+       "largest stretch or squash of the texture, 1 is isometric; 0 in a hole"},
       {"texture.id", float32, "", "particle or patch, an integer below 2^24"},
-      {"texture.mask", float32, "0 or 1", "1 where the fluid's surface is what the pixel sees, also in a hole"},
+      {"texture.mask", float32, "0 or 1",
+       "1 where the fluid's surface is what the pixel sees, also in a hole"},
   }};
   return table;
 }

@@ -11,6 +11,7 @@
 namespace ebru {
 
 /// In the order of `aovTable`; vectors are consecutive.
+// clang-format off
 enum class Aov : std::size_t {
   red, green, blue, alpha,
   albedoR, albedoG, albedoB,
@@ -23,6 +24,7 @@ enum class Aov : std::size_t {
   textureS, textureT, textureAge, textureDistortion, textureId, textureMask,
   count
 };
+// clang-format on
 
 struct AovInfo {
   std::string_view channel;  ///< name in the file
@@ -44,10 +46,12 @@ class FrameBuffer {
   }
   /// Writes three (two) consecutive channels, of which `first` is the first.
   void set(Aov first, std::size_t pixel, const Vec3f& value) {
-    for (int i = 0; i < 3; ++i) set(Aov(static_cast<std::size_t>(first) + static_cast<std::size_t>(i)), pixel, value[i]);
+    for (int i = 0; i < 3; ++i)
+      set(Aov(static_cast<std::size_t>(first) + static_cast<std::size_t>(i)), pixel, value[i]);
   }
   void set(Aov first, std::size_t pixel, const Vec2f& value) {
-    for (int i = 0; i < 2; ++i) set(Aov(static_cast<std::size_t>(first) + static_cast<std::size_t>(i)), pixel, value[i]);
+    for (int i = 0; i < 2; ++i)
+      set(Aov(static_cast<std::size_t>(first) + static_cast<std::size_t>(i)), pixel, value[i]);
   }
 
   /// The picture; leaves the frame buffer empty.

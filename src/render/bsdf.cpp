@@ -63,8 +63,8 @@ Vec3f Bsdf::sampleFacet(const Vec2f& u) const {
                                                : Vec3f(1.0f, 0.0f, 0.0f);
   const Vec3f along = stretched.cross(across);
   d.y() = (1.0f - s) * std::sqrt(std::max(0.0f, 1.0f - d.x() * d.x())) + s * d.y();
-  const Vec3f n = d.x() * across + d.y() * along +
-                  std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm())) * stretched;
+  const Vec3f n =
+      d.x() * across + d.y() * along + std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm())) * stretched;
   return Vec3f(alpha_ * n.x(), alpha_ * n.y(), std::max(1e-6f, n.z())).normalized();
 }
 

@@ -13,8 +13,8 @@ struct Material {
 };
 
 /// The material at one point, seen from one direction. The coat is GGX with Schlick's Fresnel term and
-/// height-correlated masking [Walter et al. 2007; Heitz 2014]; what it reflects on the way in and on the way out is
-/// taken from the diffuse part, so that no more leaves than came in (up to the coat's roughness).
+/// height-correlated masking [Walter et al. 2007; Heitz 2014]; what it reflects on the way in and on the way
+/// out is taken from the diffuse part, so that no more leaves than came in (up to the coat's roughness).
 class Bsdf {
  public:
   /// @param normal  unit, on the side of the viewer

@@ -11,7 +11,9 @@
 namespace ebru {
 namespace {
 
-Vec3d vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+Vec3d vec(const std::array<double, 3>& a) {
+  return {a[0], a[1], a[2]};
+}
 
 Mat4d worldToCameraMatrix(const Vec3d& position, const Vec3d& right, const Vec3d& up, const Vec3d& forward) {
   Mat4d matrix = Mat4d::Identity();
@@ -48,15 +50,17 @@ Camera::Camera(const CameraOptions& options)
       position_(vec(options.position)) {
   const Vec3d view = vec(options.target) - position_;
   if (!(view.norm() > 0.0))
-    throw UsageError(fmt::format("camera.target: got camera.position ({}, {}, {}), expected another point; move one of "
-                                 "them",
-                                 position_.x(), position_.y(), position_.z()));
+    throw UsageError(
+        fmt::format("camera.target: got camera.position ({}, {}, {}), expected another point; move one of "
+                    "them",
+                    position_.x(), position_.y(), position_.z()));
   forward_ = view.normalized();
   const Vec3d side = forward_.cross(vec(options.up));
   if (!(side.norm() > 1e-9 * vec(options.up).norm()))
-    throw UsageError(fmt::format("camera.up: got ({}, {}, {}), expected a direction that is neither zero nor along the "
-                                 "view; choose another axis",
-                                 options.up[0], options.up[1], options.up[2]));
+    throw UsageError(
+        fmt::format("camera.up: got ({}, {}, {}), expected a direction that is neither zero nor along the "
+                    "view; choose another axis",
+                    options.up[0], options.up[1], options.up[2]));
   right_ = side.normalized();
   up_ = right_.cross(forward_);
   const double screenHeight = perspective_

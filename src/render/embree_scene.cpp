@@ -95,8 +95,8 @@ EmbreeScene::EmbreeScene(const std::vector<const TriangleMesh*>& meshes) : impl_
   rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
   for (std::size_t i = 0; i < meshes.size(); ++i)
     if (meshes[i] && !meshes[i]->empty()) impl_->add(*meshes[i], static_cast<unsigned>(i));
-  // Embree partitions by the number of threads of the arena it builds in; which of two equally near triangles is
-  // reported depends on that order.
+  // Embree partitions by the number of threads of the arena it builds in; which of two equally near triangles
+  // is reported depends on that order.
   tbb::task_arena one(1);
   one.execute([&] { rtcJoinCommitScene(impl_->scene); });
   impl_->check("building the hierarchy");

@@ -31,7 +31,8 @@ int findCell(const float* sums, int count, float target, float& within) {
 double accumulate(const double* weights, int count, float* sums) {
   double total = 0.0, sum = 0.0;
   for (int i = 0; i < count; ++i) total += weights[i];
-  for (int i = 0; i < count; ++i) sums[i] = total > 0.0 ? static_cast<float>((sum += weights[i]) / total) : 0.0f;
+  for (int i = 0; i < count; ++i)
+    sums[i] = total > 0.0 ? static_cast<float>((sum += weights[i]) / total) : 0.0f;
   return total;
 }
 
@@ -39,16 +40,18 @@ double accumulate(const double* weights, int count, float* sums) {
 
 Environment::Environment(const LightOptions& options)
     : rotation_(static_cast<float>(options.rotation_deg * pi / 180.0)) {
-  const Vec3f colour = (Vec3d(options.colour[0], options.colour[1], options.colour[2]) * options.intensity).cast<float>();
+  const Vec3f colour =
+      (Vec3d(options.colour[0], options.colour[1], options.colour[2]) * options.intensity).cast<float>();
   if (options.image.empty()) {
     constant_ = colour;
     return;
   }
   const LoadedImage image = readImage(options.image, true);
   if (image.channels < 3)
-    throw InputError(fmt::format("{}: environment image: got {} channel(s), expected red, green and blue; save it in "
-                                 "colour",
-                                 options.image, image.channels));
+    throw InputError(
+        fmt::format("{}: environment image: got {} channel(s), expected red, green and blue; save it in "
+                    "colour",
+                    options.image, image.channels));
   width_ = image.width;
   height_ = image.height;
   pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
@@ -94,11 +97,13 @@ Environment::Sample Environment::sample(const Vec2f& u) const {
   const int y = findCell(marginal_.data(), height_, u.y(), down);
   const int x = findCell(&conditional_[at(0, y)], width_, u.x(), across);
   // Uniform in solid angle within the pixel: linear in the cosine of the polar angle.
-  const float top = rowCosine_[static_cast<std::size_t>(y)], bottom = rowCosine_[static_cast<std::size_t>(y) + 1];
+  const float top = rowCosine_[static_cast<std::size_t>(y)],
+              bottom = rowCosine_[static_cast<std::size_t>(y) + 1];
   const float z = top + down * (bottom - top);
   const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
   const float azimuth =
-      static_cast<float>(2.0 * pi) * ((static_cast<float>(x) + across) / static_cast<float>(width_) - 0.5f) - rotation_;
+      static_cast<float>(2.0 * pi) * ((static_cast<float>(x) + across) / static_cast<float>(width_) - 0.5f) -
+      rotation_;
   return {Vec3f(radius * std::sin(azimuth), radius * std::cos(azimuth), z), pixels_[at(x, y)]};
 }
 

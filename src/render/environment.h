@@ -7,10 +7,10 @@
 
 namespace ebru {
 
-/// Light from all around, infinitely far: one colour, or a latitude-longitude picture whose middle column is +y, right
-/// of it +x, top row +z, turned by rotation_deg about +z. A picture is sampled by luminance and solid angle; its pixels
-/// are constant patches, for the look-up as for the sampling; negative values count as 0. Immutable; safe to use
-/// concurrently.
+/// Light from all around, infinitely far: one colour, or a latitude-longitude picture whose middle column is
+/// +y, right of it +x, top row +z, turned by rotation_deg about +z. A picture is sampled by luminance and
+/// solid angle; its pixels are constant patches, for the look-up as for the sampling; negative values count
+/// as 0. Immutable; safe to use concurrently.
 class Environment {
  public:
   /// @throw InputError if the image cannot be read or has fewer than three channels
@@ -41,11 +41,11 @@ class Environment {
 
   int width_ = 0, height_ = 0;
   Vec3f constant_ = Vec3f::Zero();
-  float rotation_ = 0.0f;             ///< radians
+  float rotation_ = 0.0f;  ///< radians
   std::vector<Arriving> pixels_;
-  std::vector<float> conditional_;    ///< per row: running sum of the pixels' weights, the last is 1
-  std::vector<float> marginal_;       ///< running sum of the rows' weights, the last is 1
-  std::vector<float> rowCosine_;      ///< height + 1: cosine of the polar angle of the rows' borders
+  std::vector<float> conditional_;  ///< per row: running sum of the pixels' weights, the last is 1
+  std::vector<float> marginal_;     ///< running sum of the rows' weights, the last is 1
+  std::vector<float> rowCosine_;    ///< height + 1: cosine of the polar angle of the rows' borders
 };
 
 }  // namespace ebru

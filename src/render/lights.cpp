@@ -11,12 +11,13 @@ namespace ebru {
 SunLight::SunLight(const LightOptions& options) {
   const Vec3d direction(options.direction[0], options.direction[1], options.direction[2]);
   if (!(direction.norm() > 0.0))
-    throw UsageError("light.direction: got (0, 0, 0), expected the direction towards the sun; set one component");
+    throw UsageError(
+        "light.direction: got (0, 0, 0), expected the direction towards the sun; set one component");
   towards_ = direction.normalized().cast<float>();
   const double halfAngle = 0.5 * options.angular_diameter_deg * std::numbers::pi / 180.0;
   cosHalfAngle_ = static_cast<float>(std::cos(halfAngle));
-  // A disc of radiance L gives a surface that faces it the irradiance E = pi sin^2(a) L, and is sampled with density
-  // 1 / (2 pi (1 - cos a)): L / pdf = 2 E / (1 + cos a). E is pi times colour and intensity.
+  // A disc of radiance L gives a surface that faces it the irradiance E = pi sin^2(a) L, and is sampled with
+  // density 1 / (2 pi (1 - cos a)): L / pdf = 2 E / (1 + cos a). E is pi times colour and intensity.
   const double irradiance = std::numbers::pi * options.intensity;
   radianceOverPdf_ = (Vec3d(options.colour[0], options.colour[1], options.colour[2]) *
                       (2.0 * irradiance / (1.0 + std::cos(halfAngle))))

@@ -6,7 +6,9 @@
 namespace ebru {
 namespace {
 
-Vec3f vec(const std::array<double, 3>& a) { return Vec3d(a[0], a[1], a[2]).cast<float>(); }
+Vec3f vec(const std::array<double, 3>& a) {
+  return Vec3d(a[0], a[1], a[2]).cast<float>();
+}
 
 }  // namespace
 

@@ -23,7 +23,8 @@ class Materials {
 
   /// One texture look-up if the hit is on the fluid.
   /// @param widthWorld  of the pixel across the ray. The footprint on the surface is an ellipse, longer by
-  ///                    1 / cosine; the texture is given the root of its axes' product, stretched by at most 4
+  ///                    1 / cosine; the texture is given the root of its axes' product, stretched by at most
+  ///                    4
   Appearance at(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
 
  private:

@@ -8,7 +8,8 @@ MotionVectors::MotionVectors(const Camera& camera, const FluidFrame* previous, c
 
 Vec2f MotionVectors::between(const Vec3f& fromWorld, const Vec3f& toWorld) const {
   Vec2d from, to;
-  if (!camera_.rasterFromWorld(fromWorld, from) || !camera_.rasterFromWorld(toWorld, to)) return Vec2f::Zero();
+  if (!camera_.rasterFromWorld(fromWorld, from) || !camera_.rasterFromWorld(toWorld, to))
+    return Vec2f::Zero();
   return Vec2d(to.x() - from.x(), from.y() - to.y()).cast<float>();
 }
 

@@ -5,15 +5,16 @@
 
 namespace ebru {
 
-/// Motion vectors of material points of the fluid as a camera at rest sees them. The points are carried by the
-/// integrator of the texture particles. References are kept; const members are safe to call concurrently.
+/// Motion vectors of material points of the fluid as a camera at rest sees them. The points are carried by
+/// the integrator of the texture particles. References are kept; const members are safe to call concurrently.
 class MotionVectors {
  public:
   /// @param previous, next  null at the ends of a cache: the velocity of `current` then holds for that frame
-  MotionVectors(const Camera& camera, const FluidFrame* previous, const FluidFrame& current, const FluidFrame* next);
+  MotionVectors(const Camera& camera, const FluidFrame* previous, const FluidFrame& current,
+                const FluidFrame* next);
 
-  /// Pixels, +x to the right, +y up, from where `pWorld` (a point of frame f) is seen to where it is seen in frame f + 1.
-  /// Exactly zero where the velocity is; zero where either end is not in front of the camera.
+  /// Pixels, +x to the right, +y up, from where `pWorld` (a point of frame f) is seen to where it is seen in
+  /// frame f + 1. Exactly zero where the velocity is; zero where either end is not in front of the camera.
   Vec2f forward(const Vec3f& pWorld) const { return between(pWorld, toNext_.forward(pWorld)); }
   /// The same to frame f - 1.
   Vec2f backward(const Vec3f& pWorld) const { return between(pWorld, fromPrevious_.backward(pWorld)); }

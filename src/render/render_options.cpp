@@ -31,10 +31,11 @@ OptionFields fields(CameraOptions& o) {
       field("target", &o.target, "m", "The point in the middle of the picture."),
       field("up", &o.up, "", "The direction that is up in the picture; any length, not along the view."),
       choice("projection", &o.projection, "Kind of camera.", {"perspective", "orthographic"}),
-      field("vertical_fov_deg", &o.vertical_fov_deg, "deg", "Perspective: angle from lower to upper edge.", 0.01,
-            170.0),
+      field("vertical_fov_deg", &o.vertical_fov_deg, "deg", "Perspective: angle from lower to upper edge.",
+            0.01, 170.0),
       field("orthographic_height", &o.orthographic_height, "m",
-            "Orthographic: height of the picture in the world; its width follows from the pixels, which are square.",
+            "Orthographic: height of the picture in the world; its width follows from the pixels, which are "
+            "square.",
             1e-6),
       field("size", &o.size, "px", "Width and height of the picture.", 1, 65536),
   };
@@ -42,25 +43,30 @@ OptionFields fields(CameraOptions& o) {
 
 OptionFields fields(RenderOptions& o) {
   return {
-      field("spp", &o.spp, "", "Samples per pixel of the lit picture; data channels always take one.", 1, 65536),
-      field("filter_width_px", &o.filter_width_px, "px",
-            "Full width of the Blackman-Harris pixel filter of the lit picture; 0 samples pixel centres only.", 0.0,
-            8.0),
+      field("spp", &o.spp, "", "Samples per pixel of the lit picture; data channels always take one.", 1,
+            65536),
+      field(
+          "filter_width_px", &o.filter_width_px, "px",
+          "Full width of the Blackman-Harris pixel filter of the lit picture; 0 samples pixel centres only.",
+          0.0, 8.0),
       field("background", &o.background, "",
-            "Show the environment behind everything, with alpha 1; else the background is empty, with alpha 0."),
+            "Show the environment behind everything, with alpha 1; else the background is empty, with alpha "
+            "0."),
       field("fluid_colour", &o.fluid_colour, "", "Albedo of the fluid where it has no texture.", 0.0, 1.0),
       field("specular", &o.specular, "",
-            "Strength of the fluid's coat: reflectance at normal incidence is 0.08 times this; 0 is plain diffuse.",
+            "Strength of the fluid's coat: reflectance at normal incidence is 0.08 times this; 0 is plain "
+            "diffuse.",
             0.0, 1.0),
-      field("roughness", &o.roughness, "", "Roughness of the coat; the GGX width is its square [Walter et al. 2007].",
-            0.02, 1.0),
+      field("roughness", &o.roughness, "",
+            "Roughness of the coat; the GGX width is its square [Walter et al. 2007].", 0.02, 1.0),
   };
 }
 
 OptionFields fields(LightOptions& o) {
-  OptionField image = field("image", &o.image, "",
-                            "Environment: latitude-longitude picture (z up, its middle column is +y, to its right +x), "
-                            "multiplied by colour and intensity; without it the colour is constant.");
+  OptionField image =
+      field("image", &o.image, "",
+            "Environment: latitude-longitude picture (z up, its middle column is +y, to its right +x), "
+            "multiplied by colour and intensity; without it the colour is constant.");
   image.path = true;
   return {
       choice("type", &o.type, "A distant sun, or an environment all around.", {"sun", "environment"}),
@@ -73,8 +79,8 @@ OptionFields fields(LightOptions& o) {
       field("angular_diameter_deg", &o.angular_diameter_deg, "deg",
             "Sun: its diameter; larger makes softer shadows, 0 hard ones.", 0.0, 90.0),
       image,
-      field("rotation_deg", &o.rotation_deg, "deg", "Environment: turned counter-clockwise about +z, seen from above.",
-            -360.0, 360.0),
+      field("rotation_deg", &o.rotation_deg, "deg",
+            "Environment: turned counter-clockwise about +z, seen from above.", -360.0, 360.0),
   };
 }
 

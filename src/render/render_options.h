@@ -1,7 +1,8 @@
 #pragma once
 
-/// Tables [camera], [render], [[light]], [ground] and [[obstacle]] of the shot file. Units, ranges and help of every
-/// field stand in its `fields` table; lengths are world units (metres), colours scene-linear Rec. 709.
+/// Tables [camera], [render], [[light]], [ground] and [[obstacle]] of the shot file. Units, ranges and help
+/// of every field stand in its `fields` table; lengths are world units (metres), colours scene-linear Rec.
+/// 709.
 
 #include <array>
 #include <string>

@@ -53,16 +53,16 @@ float shadeBeauty(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer
     ray.widthPerMetre *= footprintScale;
     const RaySample sample = s.integrator.trace(ray, sampler);
     if (!sample.radiance.allFinite())
-      throw BugError(fmt::format("frame {} pixel ({}, {}) sample {}: radiance: got ({}, {}, {}), expected finite "
-                                 "values; check the texture's colours there",
-                                 s.fluid.frame, x, y, i, sample.radiance.x(), sample.radiance.y(),
-                                 sample.radiance.z()));
+      throw BugError(
+          fmt::format("frame {} pixel ({}, {}) sample {}: radiance: got ({}, {}, {}), expected finite "
+                      "values; check the texture's colours there",
+                      s.fluid.frame, x, y, i, sample.radiance.x(), sample.radiance.y(), sample.radiance.z()));
     radiance += sample.radiance;
     alpha += sample.alpha;
   }
-  const float weight = 1.0f / static_cast<float>(s.spp);
-  buffer.set(Aov::red, pixel, Vec3f(weight * radiance));
-  buffer.set(Aov::alpha, pixel, weight * alpha);
+  const auto samples = static_cast<float>(s.spp);
+  buffer.set(Aov::red, pixel, Vec3f(radiance / samples));
+  buffer.set(Aov::alpha, pixel, alpha / samples);
   return alpha;
 }
 
@@ -166,7 +166,8 @@ ChannelImage::Rational rationalFramesPerSecond(double framesPerSecond) {
   const double whole = std::round(framesPerSecond);
   if (std::abs(framesPerSecond - whole) < 1e-6) return {static_cast<int>(whole), 1};
   const double above = std::ceil(framesPerSecond);
-  if (std::abs(framesPerSecond - above * 1000.0 / 1001.0) < 0.005) return {static_cast<int>(above) * 1000, 1001};
+  if (std::abs(framesPerSecond - above * 1000.0 / 1001.0) < 0.005)
+    return {static_cast<int>(above) * 1000, 1001};
   const int thousandths = static_cast<int>(std::lround(framesPerSecond * 1000.0));
   const int divisor = std::gcd(thousandths, 1000);
   return {thousandths / divisor, static_cast<unsigned>(1000 / divisor)};

@@ -11,7 +11,8 @@
 
 namespace ebru {
 
-/// What one picture shows. `previous` and `next` serve the motion vectors and may be null at the ends of a cache.
+/// What one picture shows. `previous` and `next` serve the motion vectors and may be null at the ends of a
+/// cache.
 struct RenderInput {
   const FluidFrame* previous = nullptr;
   const FluidFrame* current = nullptr;
@@ -21,18 +22,19 @@ struct RenderInput {
 
 /// Ray-traces frames with Embree; colour is resolved at the hit through TextureField::lookup.
 ///
-/// Data channels come from one ray through the pixel centre; R G B A from render.spp samples of which each makes one
-/// look-up. Const members are safe to call concurrently.
+/// Data channels come from one ray through the pixel centre; R G B A from render.spp samples of which each
+/// makes one look-up. Const members are safe to call concurrently.
 class Renderer {
  public:
   /// @param seed  of the shot: pixel sampling
   /// @param times  where "render: hierarchy" and "render: trace" are timed; may be null
-  /// @throw UsageError for a camera or a light without direction; InputError if an environment image cannot be read
+  /// @throw UsageError for a camera or a light without direction; InputError if an environment image cannot
+  /// be read
   Renderer(const SceneOptions& options, std::uint64_t seed, PhaseTimes* times);
   ~Renderer();
 
-  /// All channels of docs/aovs.md and the header attributes worldToCamera, worldToNDC, framesPerSecond, imageCounter and
-  /// ebru:spp; the caller adds the shot's. Bit-identical for any number of threads.
+  /// All channels of docs/aovs.md and the header attributes worldToCamera, worldToNDC, framesPerSecond,
+  /// imageCounter and ebru:spp; the caller adds the shot's. Bit-identical for any number of threads.
   /// @throw InputError if the mesh is not one; BugError naming the pixel if a colour is not finite
   ChannelImage render(const RenderInput& input) const;
 
@@ -41,7 +43,8 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Frames per second as EXR's framesPerSecond: whole numbers, and the NTSC rates (23.976, 29.97, ...) as n * 1000 / 1001.
+/// Frames per second as EXR's framesPerSecond: whole numbers, and the NTSC rates (23.976, 29.97, ...) as n *
+/// 1000 / 1001.
 ChannelImage::Rational rationalFramesPerSecond(double framesPerSecond);
 
 }  // namespace ebru

@@ -13,8 +13,9 @@
 
 namespace ebru {
 
-/// Owen-scrambled, shuffled (0,2)-sequences of Sobol, one pair of dimensions after the other [Burley 2020, "Practical
-/// Hash-based Owen Scrambling"]. A pure function of (seed, frame, pixel, sample, call): copies are independent of threads.
+/// Owen-scrambled, shuffled (0,2)-sequences of Sobol, one pair of dimensions after the other [Burley 2020,
+/// "Practical Hash-based Owen Scrambling"]. A pure function of (seed, frame, pixel, sample, call): copies are
+/// independent of threads.
 class PixelSampler {
  public:
   PixelSampler(std::uint64_t seed, std::uint64_t frame, std::uint64_t pixel)
@@ -107,8 +108,8 @@ inline Vec3f sampleCone(const Vec2f& u, float cosHalfAngle) {
   return {d.x() * scale, d.y() * scale, cosine};
 }
 
-/// Offsets from the pixel centre distributed as a separable Blackman-Harris window, so that samples average with
-/// equal weights [Ernst et al. 2006].
+/// Offsets from the pixel centre distributed as a separable Blackman-Harris window, so that samples average
+/// with equal weights [Ernst et al. 2006].
 class PixelFilter {
  public:
   /// @param widthPx  full support of the window

@@ -15,9 +15,9 @@ void checkIndices(const TriangleMesh& mesh, const std::string& source) {
   const int count = static_cast<int>(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     if (mesh.triangles[i].minCoeff() < 0 || mesh.triangles[i].maxCoeff() >= count)
-      throw InputError(fmt::format("{}: triangle {}: got vertices {} {} {}, expected 0 to {}; write the mesh again",
-                                   source, i, mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2],
-                                   count - 1));
+      throw InputError(fmt::format(
+          "{}: triangle {}: got vertices {} {} {}, expected 0 to {}; write the mesh again", source, i,
+          mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2], count - 1));
 }
 
 /// A triangle with the normals of its corners, and a point in it.
@@ -28,8 +28,9 @@ struct Corners {
   Vec3f interpolate(const std::array<Vec3f, 3>& values) const {
     return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2];
   }
-  /// `p`, lifted to the curved surface that the normals suggest, so that the flat triangles do not shade themselves
-  /// where the light grazes [Hanika 2021, "Hacking the Shadow Terminator"]. `side` is 1 or -1 along the normals.
+  /// `p`, lifted to the curved surface that the normals suggest, so that the flat triangles do not shade
+  /// themselves where the light grazes [Hanika 2021, "Hacking the Shadow Terminator"]. `side` is 1 or -1
+  /// along the normals.
   Vec3f lift(const Vec3f& p, float side) const {
     std::array<Vec3f, 3> projected;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -42,8 +43,8 @@ struct Corners {
 
 }  // namespace
 
-Scene::Scene(const TriangleMesh& fluid, const std::vector<TriangleMesh>& obstacles, const GroundOptions& ground,
-             const std::string& source)
+Scene::Scene(const TriangleMesh& fluid, const std::vector<TriangleMesh>& obstacles,
+             const GroundOptions& ground, const std::string& source)
     : ground_(ground) {
   checkIndices(fluid, source);
   meshes_.push_back(&fluid);
@@ -56,8 +57,8 @@ Scene::Scene(const TriangleMesh& fluid, const std::vector<TriangleMesh>& obstacl
   embree_ = std::make_unique<EmbreeScene>(meshes_);
 }
 
-// Coordinates near p carry errors of a few units in the last place of the largest number involved (2^-24 of it);
-// 32 times that clears the surface without a visible gap under contacts.
+// Coordinates near p carry errors of a few units in the last place of the largest number involved (2^-24 of
+// it); 32 times that clears the surface without a visible gap under contacts.
 float Scene::epsilon(const Vec3f& p) const {
   return 0x1p-19f * std::max({extentWorld_, p.cwiseAbs().maxCoeff(), 1e-6f});
 }

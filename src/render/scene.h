@@ -17,13 +17,15 @@ enum class SurfaceKind { fluid, obstacle, ground };
 /// Where a ray meets a surface. World space, metres.
 struct SurfaceHit {
   SurfaceKind kind = SurfaceKind::fluid;
-  std::uint32_t obstacle = 0;          ///< index, for obstacles
-  std::uint32_t triangle = 0;          ///< of the fluid's or the obstacle's mesh
-  Vec2f barycentric = Vec2f::Zero();   ///< weights of the triangle's second and third vertex
+  std::uint32_t obstacle = 0;         ///< index, for obstacles
+  std::uint32_t triangle = 0;         ///< of the fluid's or the obstacle's mesh
+  Vec2f barycentric = Vec2f::Zero();  ///< weights of the triangle's second and third vertex
   Vec3f position = Vec3f::Zero();
-  Vec3f normal = Vec3f::UnitZ();       ///< unit, interpolated, out of the body (up for the ground), also if seen from inside
-  Vec3f facing = Vec3f::UnitZ();       ///< `normal` or its opposite: on the side of the surface that the ray sees
-  Vec3f shadowOrigin = Vec3f::Zero();  ///< where rays to the lights start: off the surface, on the side that is seen
+  Vec3f normal =
+      Vec3f::UnitZ();  ///< unit, interpolated, out of the body (up for the ground), also if seen from inside
+  Vec3f facing = Vec3f::UnitZ();  ///< `normal` or its opposite: on the side of the surface that the ray sees
+  Vec3f shadowOrigin =
+      Vec3f::Zero();  ///< where rays to the lights start: off the surface, on the side that is seen
   float distanceWorld = 0.0f;
 };
 
@@ -31,8 +33,8 @@ struct SurfaceHit {
 /// Const members are safe to call concurrently.
 class Scene {
  public:
-  /// Keeps references to the meshes. Where `fluid.normals` does not have one normal per vertex, or an interpolated
-  /// normal vanishes, the triangle's own normal is used.
+  /// Keeps references to the meshes. Where `fluid.normals` does not have one normal per vertex, or an
+  /// interpolated normal vanishes, the triangle's own normal is used.
   /// @param source  of the fluid, for messages
   /// @throw InputError if a triangle of the fluid names a vertex that does not exist
   Scene(const TriangleMesh& fluid, const std::vector<TriangleMesh>& obstacles, const GroundOptions& ground,

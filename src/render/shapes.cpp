@@ -14,8 +14,8 @@ TriangleMesh makeBox(const Vec3f& centreWorld, const Vec3f& sizeWorld) {
       u[(axis + 1) % 3] = sign;
       v[(axis + 2) % 3] = 1.0f;
       const int first = static_cast<int>(mesh.positions.size());
-      for (const Vec3f& corner : {Vec3f(normal - u - v), Vec3f(normal + u - v), Vec3f(normal + u + v),
-                                  Vec3f(normal - u + v)}) {
+      for (const Vec3f& corner :
+           {Vec3f(normal - u - v), Vec3f(normal + u - v), Vec3f(normal + u + v), Vec3f(normal - u + v)}) {
         mesh.positions.push_back(centreWorld + 0.5f * sizeWorld.cwiseProduct(corner));
         mesh.normals.push_back(normal);
       }
@@ -32,7 +32,8 @@ TriangleMesh makeSphere(const Vec3f& centreWorld, float radiusWorld, int rings) 
     for (int j = 0; j < segments; ++j) {
       const double polar = std::numbers::pi * i / rings;
       const double azimuth = 2.0 * std::numbers::pi * j / segments;
-      const Vec3d normal(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      const Vec3d normal(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                         std::cos(polar));
       mesh.normals.push_back(normal.cast<float>());
       mesh.positions.push_back(centreWorld + radiusWorld * mesh.normals.back());
     }

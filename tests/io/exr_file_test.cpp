@@ -20,9 +20,8 @@ namespace fs = std::filesystem;
 class ExrFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("ebru_exr_" + std::to_string(getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() / ("ebru_exr_" + std::to_string(getpid()) + "_" +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -127,19 +126,22 @@ TEST_F(ExrFile, TruncatedAtAnyLengthIsAnInputError) {
   const std::string whole = bytesOf(folder_ / "whole.exr");
   for (const double part : {0.0, 0.001, 0.02, 0.3, 0.7, 0.999}) {
     const auto length = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
-    std::ofstream(folder_ / "cut.exr", std::ios::binary).write(whole.data(), static_cast<std::streamsize>(length));
+    std::ofstream(folder_ / "cut.exr", std::ios::binary)
+        .write(whole.data(), static_cast<std::streamsize>(length));
     EXPECT_THROW(readExr(folder_ / "cut.exr"), InputError) << part;
   }
 }
 
-// Compressed blocks carry a checksum. Blocks that do not compress (noise) are stored as they are and carry none.
+// Compressed blocks carry a checksum. Blocks that do not compress (noise) are stored as they are and carry
+// none.
 TEST_F(ExrFile, DamagedPixelsAreAnInputError) {
   ChannelImage image = picture(64, 64);
   for (ChannelImage::Channel& channel : image.channels)
     for (std::size_t i = 0; i < channel.data.size(); ++i) channel.data[i] = static_cast<float>(i % 64);
   writeExr(folder_ / "a.exr", image);
   std::string bytes = bytesOf(folder_ / "a.exr");
-  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 16; ++i) bytes[i] = static_cast<char>(~bytes[i]);
+  for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 16; ++i)
+    bytes[i] = static_cast<char>(~bytes[i]);
   std::ofstream(folder_ / "a.exr", std::ios::binary) << bytes;
   EXPECT_THROW(readExr(folder_ / "a.exr"), InputError);
 }

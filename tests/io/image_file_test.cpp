@@ -20,9 +20,8 @@ namespace fs = std::filesystem;
 class ImageFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() /
-              ("ebru_image_" + std::to_string(getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() / ("ebru_image_" + std::to_string(getpid()) + "_" +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -75,7 +74,8 @@ TEST_F(ImageFile, TextNamedPngSaysWhichFileAndWhatNext) {
     FAIL() << "nothing thrown";
   } catch (const InputError& error) {
     const std::string message = error.what();
-    for (const std::string& part : {path.string(), std::string("got "), std::string("expected "), std::string("; ")})
+    for (const std::string& part :
+         {path.string(), std::string("got "), std::string("expected "), std::string("; ")})
       EXPECT_NE(message.find(part), std::string::npos) << message;
   }
 }
@@ -94,9 +94,13 @@ TEST_F(ImageFile, EmptyMissingFoldersAndTruncatedAreInputErrors) {
 
 TEST_F(ImageFile, ValuesThatAreNotFiniteAreInputErrors) {
   EXPECT_THROW(readImage(write<float>("nan.exr", 1, {0.0f, std::numeric_limits<float>::quiet_NaN()},
-                                      OIIO::TypeDesc::FLOAT), true), InputError);
-  EXPECT_THROW(readImage(write<float>("inf.exr", 1, {std::numeric_limits<float>::infinity()},
-                                      OIIO::TypeDesc::FLOAT), true), InputError);
+                                      OIIO::TypeDesc::FLOAT),
+                         true),
+               InputError);
+  EXPECT_THROW(
+      readImage(write<float>("inf.exr", 1, {std::numeric_limits<float>::infinity()}, OIIO::TypeDesc::FLOAT),
+                true),
+      InputError);
 }
 
 TEST_F(ImageFile, PreviewIsSrgbOverBlack) {

@@ -27,8 +27,8 @@ TEST(Bsdf, LambertReflectsItsAlbedo) {
   EXPECT_NEAR((reflectance(bsdf) - Vec3d(0.2, 0.5, 0.8)).norm(), 0.0, 2e-3);
 }
 
-// Sampling gives the same integral as uniform directions, and its density integrates to no more than 1 (what is
-// missing are samples below the horizon).
+// Sampling gives the same integral as uniform directions, and its density integrates to no more than 1 (what
+// is missing are samples below the horizon).
 TEST(Bsdf, SamplingAgreesWithEvaluation) {
   for (const double angle : {0.0, 40.0, 75.0})
     for (const float roughness : {0.3f, 0.7f}) {

@@ -38,11 +38,12 @@ class EnvironmentImage : public testing::Test {
   LightOptions options_;
 };
 
-// Column 9 of 16 is centred at azimuth (9.5 / 16 - 1/2) 360 = 33.75 degrees from +y to +x, row 3 of 8 at 78.75 degrees
-// from the pole.
+// Column 9 of 16 is centred at azimuth (9.5 / 16 - 1/2) 360 = 33.75 degrees from +y to +x, row 3 of 8
+// at 78.75 degrees from the pole.
 Vec3f brightDirection(double rotationDeg) {
   const double azimuth = (33.75 - rotationDeg) * M_PI / 180.0, polar = 78.75 * M_PI / 180.0;
-  return Vec3d(std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth), std::cos(polar)).cast<float>();
+  return Vec3d(std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth), std::cos(polar))
+      .cast<float>();
 }
 
 TEST_F(EnvironmentImage, MiddleColumnIsPlusYAndRotationIsCounterClockwise) {

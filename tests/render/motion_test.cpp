@@ -31,10 +31,11 @@ TEST(Motion, StaticFluidIsExactlyStill) {
   EXPECT_GT(covered, 300);
 }
 
-// 2 m in 100 px from above: 50 px a metre. (0.24, 0.48, 1) m/s at 24 fps are (0.01, 0.02) m, or (0.5, 1) px: +x is
-// right, +y is up, the way to the camera does not show.
+// 2 m in 100 px from above: 50 px a metre. (0.24, 0.48, 1) m/s at 24 fps are (0.01, 0.02) m, or (0.5, 1) px:
+// +x is right, +y is up, the way to the camera does not show.
 TEST(Motion, TranslationIsThatManyPixelsWithVUp) {
-  const FluidFrame frame = makeFrame(makeBox(Vec3f::Zero(), Vec3f(1.6f, 1.6f, 0.5f)), Vec3f(0.24f, 0.48f, 1.0f));
+  const FluidFrame frame =
+      makeFrame(makeBox(Vec3f::Zero(), Vec3f(1.6f, 1.6f, 0.5f)), Vec3f(0.24f, 0.48f, 1.0f));
   const ChannelImage image = renderThree(topView(100, 100, 2.0), frame);
   for (const int x : {15, 50, 85})
     for (const int y : {20, 50, 80}) {
@@ -47,8 +48,8 @@ TEST(Motion, TranslationIsThatManyPixelsWithVUp) {
     }
 }
 
-// The exact path of a point of a body that turns by omega about z is the rotation by omega / fps; the picture of its
-// end is compared with P and the camera of the test, not with the renderer's projection of the start.
+// The exact path of a point of a body that turns by omega about z is the rotation by omega / fps; the picture
+// of its end is compared with P and the camera of the test, not with the renderer's projection of the start.
 TEST(Motion, RigidRotationFollowsTheArc) {
   const float omega = 6.0f;  // rad/s: 14 degrees a frame
   SceneOptions options;
@@ -82,7 +83,8 @@ TEST(Motion, RigidRotationFollowsTheArc) {
 
 TEST(Motion, AtTheEndsOfACacheTheVelocityHolds) {
   const FluidFrame frame = makeFrame(makeBox(Vec3f::Zero(), Vec3f::Ones()), Vec3f(0.24f, 0.0f, 0.0f));
-  const ChannelImage image = Renderer(topView(10, 10, 2.0), 1, nullptr).render({nullptr, &frame, nullptr, nullptr});
+  const ChannelImage image =
+      Renderer(topView(10, 10, 2.0), 1, nullptr).render({nullptr, &frame, nullptr, nullptr});
   EXPECT_NEAR(pixel(image, "forward.u", 5, 5), 0.05f, 1e-4f);
   EXPECT_NEAR(pixel(image, "backward.u", 5, 5), -0.05f, 1e-4f);
 }
@@ -90,7 +92,8 @@ TEST(Motion, AtTheEndsOfACacheTheVelocityHolds) {
 TEST(Motion, AFluidWithoutVelocityIsStill) {
   FluidFrame frame = makeFrame(makeBox(Vec3f::Zero(), Vec3f::Ones()));
   frame.velocity.reset();
-  const ChannelImage image = Renderer(topView(10, 10, 2.0), 1, nullptr).render({nullptr, &frame, nullptr, nullptr});
+  const ChannelImage image =
+      Renderer(topView(10, 10, 2.0), 1, nullptr).render({nullptr, &frame, nullptr, nullptr});
   EXPECT_EQ(pixel(image, "texture.mask", 5, 5), 1.0f);
   EXPECT_EQ(pixel(image, "forward.u", 5, 5), 0.0f);
 }

@@ -18,7 +18,8 @@ using test::sky;
 using test::sun;
 using test::topView;
 
-ChannelImage render(const SceneOptions& options, const FluidFrame& frame, const TextureField* texture = nullptr) {
+ChannelImage render(const SceneOptions& options, const FluidFrame& frame,
+                    const TextureField* texture = nullptr) {
   return Renderer(options, 1, nullptr).render({&frame, &frame, &frame, texture});
 }
 
@@ -50,7 +51,8 @@ TEST(Renderer, ConstantTextureIsThatConstantOnEveryCoveredPixel) {
   EXPECT_GT(covered, 500);
 }
 
-// A convex Lambert body of albedo a in an environment of radiance 1 sees nothing else and reflects a in every direction.
+// A convex Lambert body of albedo a in an environment of radiance 1 sees nothing else and reflects a in every
+// direction.
 TEST(Renderer, WhiteFurnace) {
   SceneOptions options = topView(64, 64, 1.6);
   options.lights = {sky(1.0)};
@@ -77,7 +79,8 @@ TEST(Renderer, BeautyIsPremultipliedByCoverage) {
   options.lights = {sky(1.0)};
   options.render.spp = 16;
   const PlainTexture texture(Vec3f(0.5f, 0.5f, 0.5f));
-  const ChannelImage image = render(options, makeFrame(makeBox(Vec3f::Zero(), Vec3f(1.0f, 0.77f, 0.2f))), &texture);
+  const ChannelImage image =
+      render(options, makeFrame(makeBox(Vec3f::Zero(), Vec3f(1.0f, 0.77f, 0.2f))), &texture);
   int partly = 0;
   for (std::size_t i = 0; i < image.find("A")->data.size(); ++i) {
     const float alpha = image.find("A")->data[i];
@@ -87,9 +90,9 @@ TEST(Renderer, BeautyIsPremultipliedByCoverage) {
   EXPECT_GT(partly, 20);
 }
 
-// A box from z = 0 to 0.5 with its right face at x = 0.25, lit from the left at 45 degrees: the point-like sun lets the
-// shadow end on the ground at x = 0.25 + 0.5 = 0.75. From above 4 m are 200 px: x = 0.75 is column 100 + 37.5. The
-// ground beside it is lit to albedo * cos 45.
+// A box from z = 0 to 0.5 with its right face at x = 0.25, lit from the left at 45 degrees: the point-like
+// sun lets the shadow end on the ground at x = 0.25 + 0.5 = 0.75. From above 4 m are 200 px: x = 0.75 is
+// column 100 + 37.5. The ground beside it is lit to albedo * cos 45.
 TEST(Renderer, ShadowOfABoxFallsWhereGeometrySays) {
   SceneOptions options = topView(200, 200, 4.0);
   options.lights = {sun(-1.0, 0.0, 1.0)};
@@ -185,7 +188,8 @@ TEST(Renderer, WithoutTextureOrInAHoleTheMaskIsOneAndTheCoordinateMinusOne) {
   SceneOptions options = topView(8, 8, 2.0);
   options.render.fluid_colour = {0.25, 0.5, 0.75};
   const FluidFrame frame = makeFrame(makeBox(Vec3f::Zero(), Vec3f::Ones()));
-  for (const TextureField* texture : {static_cast<const TextureField*>(&hole), static_cast<const TextureField*>(nullptr)}) {
+  for (const TextureField* texture :
+       {static_cast<const TextureField*>(&hole), static_cast<const TextureField*>(nullptr)}) {
     const ChannelImage image = render(options, frame, texture);
     EXPECT_EQ(pixel(image, "texture.mask", 4, 4), 1.0f);
     EXPECT_EQ(pixel(image, "texture.s", 4, 4), -1.0f);

@@ -7,8 +7,8 @@
 namespace ebru {
 namespace {
 
-// A (0,2)-sequence in base 2: of its first 2^k points every box of 2^-a x 2^-(k-a) holds exactly one, and Owen
-// scrambling and shuffling keep that.
+// A (0,2)-sequence in base 2: of its first 2^k points every box of 2^-a x 2^-(k-a) holds exactly one, and
+// Owen scrambling and shuffling keep that.
 TEST(PixelSampler, PointsAreStratifiedInEveryElementaryInterval) {
   constexpr int k = 6;
   for (std::uint64_t pixel = 0; pixel < 8; ++pixel)
@@ -22,7 +22,8 @@ TEST(PixelSampler, PointsAreStratifiedInEveryElementaryInterval) {
       }
       for (int a = 0; a <= k; ++a) {
         std::set<std::pair<int, int>> boxes;
-        for (const Vec2f& p : points) boxes.emplace(int(p.x() * float(1 << a)), int(p.y() * float(1 << (k - a))));
+        for (const Vec2f& p : points)
+          boxes.emplace(int(p.x() * float(1 << a)), int(p.y() * float(1 << (k - a))));
         EXPECT_EQ(boxes.size(), points.size()) << "pixel " << pixel << " pair " << pair << " a " << a;
       }
     }
@@ -47,8 +48,9 @@ TEST(PixelFilter, IsSymmetricBoundedAndHasTheWindowsVariance) {
     squares += x * x;
   }
   EXPECT_NEAR(sum / n, 0.0, 1e-6);
-  // Variance of sum a_k cos(k t) on (-pi, pi), t = 2 pi x / w, about the centre: (w / 2 pi)^2 (pi^2 / 3 + sum over k of
-  // 4 (-1)^k b_k / k^2 / (2 b_0)), with b_k the coefficients about the centre (.35875, .48829, .14128, .01168).
+  // Variance of sum a_k cos(k t) on (-pi, pi), t = 2 pi x / w, about the centre: (w / 2 pi)^2 (pi^2 / 3 + sum
+  // over k of 4 (-1)^k b_k / k^2 / (2 b_0)), with b_k the coefficients about the centre (.35875, .48829,
+  // .14128, .01168).
   const double b0 = 0.35875;
   const double series = 2.0 * (-0.48829 + 0.14128 / 4.0 - 0.01168 / 9.0) / b0;
   EXPECT_NEAR(squares / n, std::pow(1.5 / (2.0 * M_PI), 2) * (M_PI * M_PI / 3.0 + series), 2e-4);
