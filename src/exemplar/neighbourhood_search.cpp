@@ -15,7 +15,7 @@ constexpr int raster = NeighbourhoodSearch::raster;
 constexpr int pixels = NeighbourhoodSearch::pixels;
 constexpr int dimensions = NeighbourhoodSearch::dimensions;
 constexpr int channels = 4;
-constexpr float kdTreeEps = 0.5f;
+constexpr float kdTreeEps = 1.0f;
 using Raw = Eigen::Matrix<float, pixels * channels, 1>;
 using Projection = Eigen::Matrix<float, dimensions, pixels * channels>;
 
@@ -34,23 +34,30 @@ struct DescriptorCloud {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<float, DescriptorCloud>, DescriptorCloud,
                                                  dimensions, std::uint32_t>;
 
-/// The single nearest, ties by index.
+/// The single nearest below a bound, ties by index.
 class NearestOne {
  public:
   using DistanceType = float;
+  explicit NearestOne(float bound) : limit_(bound) {}
   bool full() const { return true; }
-  std::size_t size() const { return 1; }
+  std::size_t size() const { return found_; }
   float worstDist() const { return limit_; }
   bool addPoint(float distance, std::uint32_t index) {
-    if (distance < best_ || (distance == best_ && index < index_)) {
-      best_ = distance;
-      index_ = index;
-      limit_ = std::nextafter(distance, std::numeric_limits<float>::infinity());
-    }
+    if (found_ && distance == distance_ && index > index_) return true;
+    found_ = true;
+    distance_ = distance;
+    index_ = index;
+    // One ulp of room, so that an equally distant window of a lower index still comes in.
+    limit_ = std::nextafter(distance, std::numeric_limits<float>::infinity());
     return true;
   }
-  float best_ = std::numeric_limits<float>::infinity();
-  float limit_ = std::numeric_limits<float>::max();
+  std::uint32_t index() const { return index_; }
+  float distance() const { return distance_; }
+
+ private:
+  bool found_ = false;
+  float limit_;
+  float distance_ = 0.0f;
   std::uint32_t index_ = 0;
 };
 
@@ -64,6 +71,7 @@ struct NeighbourhoodSearch::Impl {
   Raw mean = Raw::Zero();
   Projection projection = Projection::Zero();
   std::vector<Descriptor> descriptors;  ///< rows * columns
+  DescriptorCloud cloud{&descriptors};
   std::unique_ptr<Tree> tree;
 
   Impl(const Exemplar& e, int l, int w) : exemplar(e), level(l), window(w), spacing(w / 8), half(w / 2) {
@@ -77,7 +85,7 @@ struct NeighbourhoodSearch::Impl {
         descriptors[y * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] =
             projection * (weighted(windowAt(x + half, static_cast<int>(y) + half)) - mean);
     });
-    tree = std::make_unique<Tree>(dimensions, DescriptorCloud{&descriptors},
+    tree = std::make_unique<Tree>(dimensions, cloud,
                                   nanoflann::KDTreeSingleIndexAdaptorParams(8));
   }
 
@@ -152,13 +160,14 @@ NeighbourhoodSearch::Descriptor NeighbourhoodSearch::describe(const Window& wind
   return impl_->projection * (impl_->weighted(window) - impl_->mean);
 }
 
-NeighbourhoodSearch::Match NeighbourhoodSearch::nearest(const Descriptor& query) const {
-  NearestOne best;
+NeighbourhoodSearch::Match NeighbourhoodSearch::nearest(const Descriptor& query, const Match& bound) const {
+  NearestOne best(bound.distanceSquared);
   nanoflann::SearchParams parameters;
   parameters.eps = kdTreeEps;
   impl_->tree->findNeighbors(best, query.data(), parameters);
-  const int i = static_cast<int>(best.index_);
-  return {{i % impl_->columns + impl_->half, i / impl_->columns + impl_->half}, best.best_};
+  if (best.size() == 0) return bound;
+  const int i = static_cast<int>(best.index());
+  return {{i % impl_->columns + impl_->half, i / impl_->columns + impl_->half}, best.distance()};
 }
 
 NeighbourhoodSearch::Match NeighbourhoodSearch::at(const Vec2i& texel, const Descriptor& query) const {

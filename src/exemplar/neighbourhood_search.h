@@ -42,8 +42,9 @@ class NeighbourhoodSearch {
   const std::array<float, pixels>& weights() const;
 
   Descriptor describe(const Window& window) const;
-  /// Nearest window by the kd-tree, within a factor 1 + eps of the nearest; ties by position.
-  Match nearest(const Descriptor& query) const;
+  /// The window nearest to the query by the kd-tree (approximately: a branch is left out when it cannot be much nearer),
+  /// or `bound` itself where nothing nearer than `bound.distanceSquared` is found; ties by position.
+  Match nearest(const Descriptor& query, const Match& bound) const;
   /// The distance of the window at a texel, which is moved inside first if its window would not fit.
   Match at(const Vec2i& texel, const Descriptor& query) const;
   /// Moves a centre so that its window lies inside the exemplar.

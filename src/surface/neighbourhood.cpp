@@ -1,5 +1,7 @@
 #include "surface/neighbourhood.h"
 
+#include "surface/orientation_field.h"
+
 namespace ebru {
 namespace {
 
@@ -8,7 +10,7 @@ Vec2f step(const OrientedPoints& points, std::uint32_t a, std::uint32_t b) {
   const Vec3f v = points.positions[b] - points.positions[a];
   const auto inFrame = [&](std::uint32_t i) {
     const Vec3f& o = points.orientations[i];
-    return Vec2f(v.dot(o), v.dot(points.normals[i].cross(o)));
+    return Vec2f(v.dot(o), v.dot(secondAxis(points.normals[i], o)));
   };
   const Vec2f flat = inFrame(a) + inFrame(b);
   const float length = flat.norm();

@@ -19,7 +19,7 @@ struct NeighbourhoodPoint {
 struct OrientedPoints {
   std::span<const Vec3f> positions;
   std::span<const Vec3f> normals;
-  std::span<const Vec3f> orientations;  ///< unit tangents; the second axis is normal x orientation
+  std::span<const Vec3f> orientations;  ///< unit tangents; with secondAxis they make the local frames
 };
 
 /// Flattens the surroundings of points by marching displacements in the orientation field [Kwatra 2007, sec. 5.1]:

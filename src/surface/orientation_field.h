@@ -16,6 +16,10 @@ inline Vec3f transportTangent(const Vec3f& tangent, const Vec3f& from, const Vec
   return tangent - (to.dot(tangent) / (1.0f + from.dot(to))) * (from + to);
 }
 
+/// The second axis of the local frame: with it, a frame seen from outside the fluid is laid out like an image, u to the
+/// right and v down, so that exemplars are not mirrored.
+inline Vec3f secondAxis(const Vec3f& normal, const Vec3f& orientation) { return orientation.cross(normal); }
+
 /// The world axis `axis`, projected into the tangent plane of each point; where that vanishes, any tangent.
 std::vector<Vec3f> projectedAxis(std::span<const Vec3f> normals, const Vec3f& axis);
 

@@ -24,7 +24,7 @@ struct TextureSample {
   Vec2f st = Vec2f::Zero();      ///< exemplar coordinate in [0, 1]^2, t down the image
   int exemplar = 0;
   float id = 0.0f;               ///< particle or patch; exact integer below 2^24
-  float age = 0.0f;              ///< frames since this piece of texture was laid
+  float age = 0.0f;              ///< frames this piece of texture has been carried; still frames do not count
   float distortion = 1.0f;       ///< max(s1, 1/s2) of the singular values of d(st)/d(P), 1 = isometric
   bool valid = false;            ///< false: this point has no texture (a hole)
 };

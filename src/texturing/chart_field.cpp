@@ -1,0 +1,58 @@
+#include "texturing/chart_field.h"
+
+#include <array>
+
+#include "core/parallel.h"
+
+namespace ebru {
+namespace {
+
+constexpr float blendTexels = 1.6f;
+constexpr std::size_t maxBlended = 16;
+
+}  // namespace
+
+ChartField::ChartField(std::shared_ptr<const TextureParticles> particles, std::shared_ptr<const Exemplar> exemplar,
+                       float texelWorld)
+    : nearest_(std::move(particles), texelWorld), exemplar_(std::move(exemplar)) {
+  const TextureParticles& p = nearest_.particles();
+  residual_.resize(p.size());
+  parallelFor(p.size(), 1024, [&](std::size_t i) { residual_[i] = p.colour[i] - exemplar_->sample(0, p.st[i]); });
+}
+
+TextureSample ChartField::lookup(const SurfacePoint& point) const {
+  TextureSample sample;
+  std::array<PointIndex::Neighbour, maxBlended> found;
+  const std::size_t count = nearest_.find(point, blendTexels, found);
+  if (count == 0) return sample;
+  const TextureParticles& particles = nearest_.particles();
+  const float reach = blendTexels * nearest_.texelWorld();
+  const auto chart = [&](std::size_t i) {
+    return Vec2f(particles.st[i] +
+                 particles.jacobian[i] * localTexels(particles, i, point.position, nearest_.texelWorld()));
+  };
+  Texel sum = Texel::Zero();
+  float weights = 0.0f;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float falloff = std::max(0.0f, 1.0f - found[k].distanceSquared / (reach * reach));
+    const float weight = falloff * falloff * falloff + 1e-12f;
+    const std::size_t i = found[k].index;
+    sum += weight * (residual_[i] + exemplar_->sample(0, chart(i)));
+    weights += weight;
+  }
+  const Texel texel = sum / weights;
+  const std::size_t first = found[0].index;
+  const Vec2f st = chart(first);
+  sample.colour = linearColour(texel);
+  sample.displacement = texel[3];
+  sample.st = Vec2f(st.x() / static_cast<float>(exemplar_->width()), st.y() / static_cast<float>(exemplar_->height()))
+                  .cwiseMax(0.0f)
+                  .cwiseMin(1.0f);
+  sample.id = static_cast<float>(particles.id[first]);
+  sample.age = particles.age[first];
+  sample.distortion = distortion(particles.jacobian[first]);
+  sample.valid = true;
+  return sample;
+}
+
+}  // namespace ebru

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <functional>
+
+#include "core/error.h"
+#include "texturing/particles_method.h"
+#include "texturing/synthesis_method.h"
+#include "texturing/texture_method.h"
+
+namespace ebru {
+namespace {
+
+using Maker = std::unique_ptr<TextureMethod> (*)(const TextureOptions&, std::uint64_t, PhaseTimes*);
+
+struct Entry {
+  TextureMethodInfo info;
+  Maker make;
+};
+
+/// One line per method.
+const std::vector<Entry>& registry() {
+  static const std::vector<Entry> entries = {
+      {{"particles", "texture coordinates ride on particles, 64 nearest interpolated (Rasmussen 2004): distorts"},
+       makeParticlesMethod},
+      {{"synthesis", "surface texture optimisation on advected texture particles (Kwatra 2007)"}, makeSynthesisMethod},
+  };
+  return entries;
+}
+
+}  // namespace
+
+const std::vector<TextureMethodInfo>& textureMethods() {
+  static const std::vector<TextureMethodInfo> infos = [] {
+    std::vector<TextureMethodInfo> result;
+    for (const Entry& entry : registry()) result.push_back(entry.info);
+    return result;
+  }();
+  return infos;
+}
+
+std::unique_ptr<TextureMethod> makeTextureMethod(const TextureOptions& options, std::uint64_t seed,
+                                                 PhaseTimes* times) {
+  std::string known;
+  for (const Entry& entry : registry()) {
+    if (entry.info.name == options.method) return entry.make(options, seed, times);
+    known += (known.empty() ? "" : ", ") + entry.info.name;
+  }
+  throw UsageError(
+      fmt::format("texture.method: unknown method: got \"{}\", expected one of {}", options.method, known));
+}
+
+}  // namespace ebru

@@ -1,0 +1,127 @@
+#include "texturing/particles_method.h"
+
+#include <array>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "surface/orientation_field.h"
+#include "surface/poisson_sampling.h"
+#include "texturing/nearest_particles.h"
+#include "texturing/texture_transport.h"
+
+namespace ebru {
+namespace {
+
+constexpr std::size_t interpolated = 64;
+constexpr float reachTexels = 12.0f;
+
+float wrap(float coordinate, int size) {
+  const float period = static_cast<float>(size);
+  return coordinate - period * std::floor(coordinate / period);
+}
+
+class CoordinateField : public TextureField {
+ public:
+  CoordinateField(std::shared_ptr<const TextureParticles> particles, std::shared_ptr<const Exemplar> exemplar,
+                  float texelWorld)
+      : nearest_(std::move(particles), texelWorld), exemplar_(std::move(exemplar)) {}
+
+  TextureSample lookup(const SurfacePoint& point) const override {
+    TextureSample sample;
+    std::array<PointIndex::Neighbour, interpolated> found;
+    const std::size_t count = nearest_.find(point, reachTexels, found);
+    if (count == 0) return sample;
+    const TextureParticles& particles = nearest_.particles();
+    // Weights fall to zero at the farthest of the 64, so that the coordinate is continuous.
+    const float reach = 1.0001f * found[count - 1].distanceSquared + 1e-30f;
+    Vec2f st = Vec2f::Zero();
+    Mat2f jacobian = Mat2f::Zero();
+    float weights = 0.0f;
+    for (std::size_t k = 0; k < count; ++k) {
+      const float falloff = 1.0f - found[k].distanceSquared / reach;
+      const float weight = falloff * falloff + 1e-12f;
+      st += weight * particles.st[found[k].index];
+      weights += weight;
+    }
+    const std::size_t first = found[0].index;
+    jacobian = particles.jacobian[first];
+    st /= weights;
+    const Vec2f wrapped(wrap(st.x(), exemplar_->width()), wrap(st.y(), exemplar_->height()));
+    const Texel texel = exemplar_->sample(0, wrapped);
+    sample.colour = linearColour(texel);
+    sample.displacement = texel[3];
+    sample.st = Vec2f(wrapped.x() / static_cast<float>(exemplar_->width()),
+                      wrapped.y() / static_cast<float>(exemplar_->height()));
+    sample.id = static_cast<float>(particles.id[first]);
+    sample.age = particles.age[first];
+    sample.distortion = distortion(jacobian);
+    sample.valid = true;
+    return sample;
+  }
+
+ private:
+  NearestParticles nearest_;
+  std::shared_ptr<const Exemplar> exemplar_;
+};
+
+class ParticlesMethod : public TextureMethod {
+ public:
+  ParticlesMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
+      : texelWorld_(static_cast<float>(options.texel_size)),
+        seed_(seed),
+        times_(times),
+        exemplar_(std::make_shared<Exemplar>(options.exemplar, options.height)) {}
+
+  void start(const FluidFrame& first) override {
+    const PhaseTimer timer(times_, "sampling");
+    checkParticleCount(first, texelWorld_);
+    TextureParticles particles;
+    std::vector<ParticleFate> fates;
+    keepSpacing(first, *exemplar_, texelWorld_, seed_, particles, fates);
+    publish(std::move(particles));
+  }
+
+  void advance(const FluidFrame& from, const FluidFrame& to) override {
+    checkParticleCount(to, texelWorld_);
+    TextureParticles particles = *particles_;
+    std::vector<ParticleFate> fates;
+    {
+      const PhaseTimer timer(times_, "transport");
+      fates = carryParticles(from, to, texelWorld_, particles);
+    }
+    const PhaseTimer timer(times_, "sampling");
+    keepSpacing(to, *exemplar_, texelWorld_, seed_, particles, fates);
+    publish(std::move(particles));
+  }
+
+  std::shared_ptr<const TextureField> field() const override { return field_; }
+  void save(StateWriter& writer) const override { particles_->save(writer); }
+  void load(const StateReader& reader) override {
+    TextureParticles particles;
+    particles.load(reader);
+    publish(std::move(particles));
+  }
+
+ private:
+  void publish(TextureParticles particles) {
+    particles_ = std::make_shared<const TextureParticles>(std::move(particles));
+    const PhaseTimer timer(times_, "index");
+    field_ = std::make_shared<CoordinateField>(particles_, exemplar_, texelWorld_);
+  }
+
+  float texelWorld_;
+  std::uint64_t seed_;
+  PhaseTimes* times_;
+  std::shared_ptr<const Exemplar> exemplar_;
+  std::shared_ptr<const TextureParticles> particles_;
+  std::shared_ptr<const TextureField> field_;
+};
+
+}  // namespace
+
+std::unique_ptr<TextureMethod> makeParticlesMethod(const TextureOptions& options, std::uint64_t seed,
+                                                   PhaseTimes* times) {
+  return std::make_unique<ParticlesMethod>(options, seed, times);
+}
+
+}  // namespace ebru

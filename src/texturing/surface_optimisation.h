@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "exemplar/neighbourhood_search.h"
+#include "surface/neighbourhood.h"
+#include "surface/point_graph.h"
+
+namespace ebru {
+
+/// Surface texture optimisation [Kwatra 2007, sec. 5.2]: the texture of a set of surface points is brought close to the
+/// exemplar by alternating between finding, for overlapping neighbourhoods of points, the most similar exemplar windows
+/// (step 2), and re-computing the points' texture from what those windows propose (step 3).
+///
+/// Beyond the paper: a window's place in the exemplar is continuous (position and angle are refined against the points,
+/// which stands in for the paper's sub-pixel shifts); proposals are weighted by how well their window fits, as in the
+/// robust energy of [Kwatra 2005, sec. 3.3]; and at the end each point takes the one proposal nearest to the mean,
+/// with its exemplar coordinate, so that no contrast is lost to averaging.
+
+/// The points of one level and their texture. Spans of equal length.
+struct SurfaceTexture {
+  std::span<Texel> colour;    ///< encoded
+  std::span<Vec2f> st;        ///< texels of level 0
+  std::span<Mat2f> jacobian;  ///< exemplar texels per surface texel, in the points' frames
+};
+
+/// What pulls the texture towards the transported one [eq. 2]. Empty spans: nothing does (first frame).
+struct TransportedTexture {
+  std::span<const Texel> colour;   ///< c
+  std::span<const float> weight;   ///< lambda_k, relative to the sum of the windows' weights; negative: not to be kept
+};
+
+/// Neighbourhoods of one window size over one set of points, and their matches.
+class WindowSet {
+ public:
+  /// @param level  pyramid level of the points' colours; at most the search's level. A search on a coarser level looks at
+  ///               wider windows of the same points.
+  /// @param texelWorld  metres per texel of `level`
+  /// @param active  centres are placed on points with active != 0; empty: on all
+  WindowSet(const OrientedPoints& points, const PointGraph& graph, const NeighbourhoodSearch& search,
+            const Exemplar& exemplar, int level, float texelWorld, float centreSpacing, std::span<const std::uint8_t> active,
+            std::span<const Mat2f> jacobian);
+
+  std::size_t size() const { return centres_.size(); }
+
+  /// Random exemplar windows as matches [Kwatra 2005, algorithm 1].
+  void matchRandomly(std::uint64_t seed, int frame);
+  /// Each window keeps the chart of its centre: the transported texture, laid rigidly.
+  void matchOwnCharts(const SurfaceTexture& texture);
+  /// Steps 1 and 2. A window whose match, refined, fits within `tolerance` (relative to the exemplar's contrast) keeps it;
+  /// the others are searched. 0: all are searched.
+  void matchNearest(const SurfaceTexture& texture, float tolerance);
+  /// Step 3: weighted means of the windows' proposals and the transported colours. Only points with a window, and of
+  /// those, if `only` is not empty, the ones it marks.
+  void average(const SurfaceTexture& texture, const TransportedTexture& transported,
+               std::span<const std::uint8_t> only) const;
+  /// Each point with a window takes the proposal nearest to its colour: colour, coordinate and Jacobian. With
+  /// `transported`, a point keeps its transported texture when no proposal is nearer by `keepMargin` (in contrasts).
+  /// @return per point, 1 where the texture was replaced
+  std::vector<std::uint8_t> choose(const SurfaceTexture& texture, const TransportedTexture& transported,
+                                   std::span<const std::uint8_t> only, float keepMargin) const;
+
+  /// Root mean square distance of each window to its match, relative to the exemplar's contrast.
+  std::span<const float> errors() const { return errors_; }
+  /// Per point: 1 if a window with an error above `tolerance` covers it.
+  std::vector<std::uint8_t> coveredByPoorWindow(float tolerance) const;
+
+ private:
+  struct Proposal {
+    std::uint32_t window;
+    Vec2f displacement;
+  };
+  std::span<const NeighbourhoodPoint> members(std::size_t w) const {
+    return {members_.data() + offsets_[w], members_.data() + offsets_[w + 1]};
+  }
+  std::span<const Proposal> proposals(std::size_t point) const {
+    return {proposals_.data() + proposalOffsets_[point], proposals_.data() + proposalOffsets_[point + 1]};
+  }
+  void chooseCentres(const OrientedPoints& points, float spacingWorld, std::span<const std::uint8_t> active);
+  void flatten(const OrientedPoints& points, const PointGraph& graph, float texelWorld,
+               std::span<const Mat2f> jacobian);
+  void transpose(std::size_t pointCount);
+  NeighbourhoodSearch::Window raster(std::size_t w, std::span<const Texel> colour) const;
+  void matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Vec2f>& previous);
+  float refine(std::size_t w, std::span<const Texel> colour, int steps, Vec2f& uv, Mat2f& rotation) const;
+  Vec2f exemplarPlace(std::size_t w, const Vec2f& displacement) const {
+    return uv_[w] + rotation_[w] * displacement;
+  }
+  float fit(std::size_t w) const;
+  float falloff(const Vec2f& displacement) const;
+  float pixelSpacing() const { return search_.pixelSpacing() * searchScale_; }
+  float windowTexels() const { return static_cast<float>(search_.window()) * searchScale_; }
+  Vec2f clampInside(const Vec2f& uv) const { return searchScale_ * search_.clampInside(uv / searchScale_); }
+
+  const NeighbourhoodSearch& search_;
+  const Exemplar& exemplar_;
+  int level_;          ///< of the points' colours
+  float scale_;        ///< level-0 texels per texel of level_
+  float searchScale_;  ///< texels of level_ per texel of the search's level
+  std::vector<std::uint32_t> centres_;
+  std::vector<Mat2f> axes_;               ///< per window: from the centre's frame to the window
+  std::vector<std::size_t> offsets_;      ///< windows + 1, into members_
+  std::vector<NeighbourhoodPoint> members_;
+  std::vector<std::size_t> proposalOffsets_;  ///< points + 1, into proposals_
+  std::vector<Proposal> proposals_;           ///< the transpose of members_
+  std::vector<std::uint32_t> windowOfPoint_;  ///< window centred on a point, or none
+  std::vector<Vec2f> uv_;                 ///< per window: match of its centre, texels of level_
+  std::vector<Mat2f> rotation_;           ///< per window: small rotation of its match
+  std::vector<float> errors_;
+};
+
+}  // namespace ebru

@@ -1,0 +1,272 @@
+#include "texturing/synthesis_method.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "surface/cell_grid.h"
+#include "surface/orientation_field.h"
+#include "surface/point_graph.h"
+#include "surface/point_index.h"
+#include "surface/poisson_sampling.h"
+#include "texturing/chart_field.h"
+#include "texturing/surface_optimisation.h"
+#include "texturing/texture_transport.h"
+
+namespace ebru {
+namespace {
+
+constexpr int maxLevels = 3;             ///< "we use three levels of hierarchy" [Kwatra 2007, sec. 4.2]
+constexpr float graphReach = 1.9f;       ///< of the 1-ring, in Poisson spacings
+constexpr int ringSize = 10;
+
+constexpr float goodFit = 0.15f;         ///< a window that fits this well (in contrasts) is not searched again
+constexpr float poorFit = 0.3f;          ///< a transported window that fits worse is synthesised anew
+constexpr float keepMargin = 0.0f;       ///< how much nearer to the optimum than the transported texture a new one must be
+constexpr float transportStrength = 0.2f;  ///< lambda of eq. 2 where the texture has its usual gradient
+/// The transported texture loses its pull between these distortions: what is stretched should not be kept.
+constexpr float trustedDistortion = 1.2f, distrustedDistortion = 1.6f;
+
+/// lambda_k: "a larger weight is given to the transported texture color at a point that has greater color gradient in its
+/// vicinity" [Kwatra 2007, sec. 5.2]; saturates at twice `transportStrength`. Negative where the transported texture is
+/// too distorted to be kept.
+std::vector<float> transportWeights(const TextureParticles& particles, const PointGraph& graph) {
+  const std::vector<Texel>& colour = particles.colour;
+  std::vector<float> gradient(colour.size(), 0.0f);
+  parallelFor(colour.size(), 1024, [&](std::size_t i) {
+    const auto ring = graph.of(static_cast<std::uint32_t>(i));
+    if (ring.empty()) return;
+    float sum = 0.0f;
+    for (std::uint32_t j : ring) sum += (colour[j] - colour[i]).square().sum();
+    gradient[i] = std::sqrt(sum / static_cast<float>(ring.size()));
+  });
+  const auto usual = static_cast<float>(parallelSum(colour.size(), [&](std::size_t i) { return gradient[i]; }) /
+                                        std::max<double>(1.0, static_cast<double>(colour.size())));
+  parallelFor(gradient.size(), 4096, [&](std::size_t i) {
+    const float trust = (distrustedDistortion - distortion(particles.jacobian[i])) /
+                        (distrustedDistortion - trustedDistortion);
+    const float lambda = 2.0f * transportStrength * gradient[i] / (gradient[i] + usual + 1e-6f);
+    gradient[i] = trust > 0.0f ? lambda * std::min(trust, 1.0f) : -1.0f;
+  });
+  return gradient;
+}
+
+PointGraph ringGraph(const OrientedPoints& points, float texelWorld) {
+  return buildPointGraph(points.positions, points.normals, graphReach * poissonSpacingTexels * texelWorld, ringSize);
+}
+
+/// The nested Poisson sets of the first frame: the coarse points first.
+struct Hierarchy {
+  SurfaceSamples samples;
+  std::vector<std::size_t> counts;  ///< points of each level, coarsest first
+};
+
+Hierarchy sampleHierarchy(const FluidFrame& frame, float texelWorld, int levels, std::uint64_t seed) {
+  Hierarchy h;
+  for (int level = levels - 1; level >= 0; --level) {
+    addPoissonSamples(frame.mesh, poissonSpacingTexels * texelWorld * static_cast<float>(1 << level), seed,
+                      frame.frame, h.samples);
+    h.counts.push_back(h.samples.size());
+  }
+  return h;
+}
+
+class SynthesisMethod : public TextureMethod {
+ public:
+  SynthesisMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
+      : texelWorld_(static_cast<float>(options.texel_size)),
+        seed_(seed),
+        times_(times),
+        exemplar_(std::make_shared<Exemplar>(options.exemplar, options.height)) {
+    const PhaseTimer timer(times_, "exemplar");
+    const int levels = std::min(maxLevels, exemplar_->levelCount());
+    for (int level = 0; level < levels; ++level) {
+      wide_.emplace_back(*exemplar_, level, 17);
+      narrow_.emplace_back(*exemplar_, level, 9);
+    }
+  }
+
+  void start(const FluidFrame& first) override;
+  void advance(const FluidFrame& from, const FluidFrame& to) override;
+  std::shared_ptr<const TextureField> field() const override { return field_; }
+  void save(StateWriter& writer) const override { particles_->save(writer); }
+  void load(const StateReader& reader) override {
+    TextureParticles particles;
+    particles.load(reader);
+    publish(std::move(particles));
+  }
+
+ private:
+  struct LevelView {
+    OrientedPoints points;
+    SurfaceTexture texture;
+  };
+  static LevelView firstPoints(TextureParticles& p, std::size_t count) {
+    return {{std::span(p.position).first(count), std::span(p.normal).first(count), std::span(p.orientation).first(count)},
+            {std::span(p.colour).first(count), std::span(p.st).first(count), std::span(p.jacobian).first(count)}};
+  }
+  void inheritFromCoarser(TextureParticles& particles, std::size_t coarse, std::size_t fine, int level) const;
+  void synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest, int frame);
+  void refit(TextureParticles& particles, const std::vector<ParticleFate>& fates);
+  void publish(TextureParticles particles) {
+    particles_ = std::make_shared<const TextureParticles>(std::move(particles));
+    const PhaseTimer timer(times_, "index");
+    field_ = std::make_shared<ChartField>(particles_, exemplar_, texelWorld_);
+  }
+
+  float texelWorld_;
+  std::uint64_t seed_;
+  PhaseTimes* times_;
+  std::shared_ptr<const Exemplar> exemplar_;
+  std::vector<NeighbourhoodSearch> wide_, narrow_;  ///< per level: windows of 17 and 9
+  std::shared_ptr<const TextureParticles> particles_;
+  std::shared_ptr<const TextureField> field_;
+};
+
+void SynthesisMethod::start(const FluidFrame& first) {
+  checkParticleCount(first, texelWorld_);
+  TextureParticles particles;
+  const int levels = static_cast<int>(wide_.size());
+  Hierarchy hierarchy;
+  {
+    const PhaseTimer timer(times_, "sampling");
+    hierarchy = sampleHierarchy(first, texelWorld_, levels, seed_);
+  }
+  particles.append(hierarchy.samples.size());
+  particles.position = std::move(hierarchy.samples.positions);
+  particles.normal = std::move(hierarchy.samples.normals);
+  particles.orientation = projectedAxis(particles.normal, Vec3f(1.0f, 0.0f, 0.0f));
+  {
+    const PhaseTimer timer(times_, "synthesis");
+    std::size_t coarser = 0;
+    for (int k = 0; k < levels; ++k) {
+      const std::size_t count = hierarchy.counts[static_cast<std::size_t>(k)];
+      const int level = levels - 1 - k;
+      if (k > 0) inheritFromCoarser(particles, coarser, count, level);
+      synthesiseLevel(particles, count, level, k == 0, first.frame);
+      coarser = count;
+    }
+  }
+  std::vector<ParticleFate> fates(particles.size(), ParticleFate::carried);
+  {
+    const PhaseTimer timer(times_, "sampling");
+    keepSpacing(first, *exemplar_, texelWorld_, seed_, particles, fates);
+  }
+  std::fill(particles.age.begin(), particles.age.end(), 0.0f);
+  publish(std::move(particles));
+}
+
+/// Up-sampling: finer points take frame and chart of the nearest coarser one, and the exemplar's colour there. Where the
+/// paper copies and diffuses colours, the chart brings the finer level's detail along.
+void SynthesisMethod::inheritFromCoarser(TextureParticles& particles, std::size_t coarse, std::size_t fine,
+                                         int level) const {
+  const std::span<const Vec3f> positions = std::span(particles.position).first(coarse);
+  const std::span<const Vec3f> normals = std::span(particles.normal).first(coarse);
+  const PointIndex index(positions, normals);
+  const float levelScale = static_cast<float>(1 << level);
+  parallelFor(fine, 256, [&](std::size_t i) {
+    if (i >= coarse) {
+      PointIndex::Neighbour nearest;
+      std::size_t count = index.nearest(particles.position[i], particles.normal[i], 0.5f, 1e18f, {&nearest, 1});
+      if (count == 0) count = index.nearest(particles.position[i], particles.normal[i], -1.0f, 1e18f, {&nearest, 1});
+      if (count > 0) {
+        const std::size_t j = nearest.index;
+        if (particles.normal[j].dot(particles.normal[i]) > -0.5f)
+          particles.orientation[i] =
+              transportTangent(particles.orientation[j], particles.normal[j], particles.normal[i]).normalized();
+        particles.jacobian[i] = particles.jacobian[j];
+        particles.st[i] = particles.st[j] +
+                          particles.jacobian[j] * localTexels(particles, j, particles.position[i], texelWorld_);
+      }
+    }
+    particles.colour[i] = exemplar_->sample(level, particles.st[i] / levelScale);
+  });
+}
+
+void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest,
+                                      int frame) {
+  const float texel = texelWorld_ * static_cast<float>(1 << level);
+  LevelView view = firstPoints(particles, count);
+  const PointGraph graph = ringGraph(view.points, texel);
+  std::vector<Vec3f> orientation(view.points.orientations.begin(), view.points.orientations.end());
+  diffuseOrientation(view.points.normals, graph, coarsest ? 60 : 6, {}, orientation);
+  std::copy(orientation.begin(), orientation.end(), particles.orientation.begin());
+
+  const auto l = static_cast<std::size_t>(level);
+  for (const NeighbourhoodSearch* search : {&wide_[l], &narrow_[l]}) {
+    const bool wide = search->window() == 17;
+    WindowSet windows(view.points, graph, *search, *exemplar_, level, texel, 0.25f, {}, {});
+    if (windows.size() == 0) return;
+    if (coarsest && wide) {
+      windows.matchRandomly(seed_, frame);
+      windows.average(view.texture, {}, {});
+    } else {
+      windows.matchOwnCharts(view.texture);
+    }
+    const int iterations = coarsest ? 8 : wide ? 3 : 2;
+    for (int i = 0; i < iterations; ++i) {
+      windows.matchNearest(view.texture, coarsest ? 0.0f : goodFit);
+      windows.average(view.texture, {}, {});
+    }
+    windows.choose(view.texture, {}, {}, 0.0f);
+  }
+}
+
+void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
+  checkParticleCount(to, texelWorld_);
+  TextureParticles particles = *particles_;
+  std::vector<ParticleFate> fates;
+  {
+    const PhaseTimer timer(times_, "transport");
+    fates = carryParticles(from, to, texelWorld_, particles);
+  }
+  {
+    const PhaseTimer timer(times_, "sampling");
+    keepSpacing(to, *exemplar_, texelWorld_, seed_, particles, fates);
+  }
+  {
+    const PhaseTimer timer(times_, "synthesis");
+    refit(particles, fates);
+  }
+  publish(std::move(particles));
+}
+
+void SynthesisMethod::refit(TextureParticles& particles, const std::vector<ParticleFate>& fates) {
+  std::vector<std::uint8_t> active(particles.size());
+  bool any = false;
+  for (std::size_t i = 0; i < active.size(); ++i) any |= (active[i] = fates[i] != ParticleFate::still);
+  if (!any) return;
+  LevelView view = firstPoints(particles, particles.size());
+  const PointGraph graph = ringGraph(view.points, texelWorld_);
+  const std::vector<Texel> colour(particles.colour);
+  const std::vector<float> weight = transportWeights(particles, graph);
+  const TransportedTexture transported{colour, weight};
+  // Windows of 34 texels first: only windows larger than a feature see that a stretched feature is not one of the
+  // exemplar's.
+  std::vector<const NeighbourhoodSearch*> passes;
+  if (wide_.size() > 1) passes.push_back(&wide_[1]);
+  passes.insert(passes.end(), {&wide_[0], &narrow_[0]});
+  for (const NeighbourhoodSearch* search : passes) {
+    WindowSet windows(view.points, graph, *search, *exemplar_, 0, texelWorld_, 0.25f, active, view.texture.jacobian);
+    if (windows.size() == 0) return;
+    windows.matchOwnCharts(view.texture);
+    const std::vector<std::uint8_t> poor = windows.coveredByPoorWindow(poorFit);
+    if (std::find(poor.begin(), poor.end(), 1) == poor.end()) continue;
+    for (int i = 0; i < 2; ++i) {
+      windows.matchNearest(view.texture, poorFit);
+      windows.average(view.texture, transported, poor);
+    }
+    const std::vector<std::uint8_t> replaced = windows.choose(view.texture, transported, poor, keepMargin);
+    for (std::size_t i = 0; i < replaced.size(); ++i)
+      if (replaced[i]) particles.age[i] = 0.0f;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<TextureMethod> makeSynthesisMethod(const TextureOptions& options, std::uint64_t seed,
+                                                   PhaseTimes* times) {
+  return std::make_unique<SynthesisMethod>(options, seed, times);
+}
+
+}  // namespace ebru
