@@ -1,0 +1,23 @@
+"""One thread and two give the same bits."""
+
+from support import *
+
+
+def test_pictures_and_states_do_not_depend_on_the_threads(folder):
+    for method in ("particles", "synthesis"):
+        shot = write_shot(folder, method=method, last=4)
+        for threads in (1, 2):
+            render(shot, folder / f"{method}{threads}", "--threads", threads, "--keep-states")
+        assert_same_files(files(folder / f"{method}2"), files(folder / f"{method}1"), method)
+        assert len(files(folder / f"{method}1/states")) == 4
+
+
+def test_caches_read_the_same(folder):
+    write_cache(folder)
+    shot = write_cache_shot(folder)
+    for threads in (1, 2):
+        render(shot, folder / f"out{threads}", "--threads", threads, "--keep-states")
+    assert_same_files(files(folder / "out2"), files(folder / "out1"))
+
+
+main()
