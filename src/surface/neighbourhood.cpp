@@ -5,14 +5,29 @@
 namespace ebru {
 namespace {
 
-/// Displacement from point a to point b in the orientation field, world units.
-Vec2f step(const OrientedPoints& points, std::uint32_t a, std::uint32_t b) {
-  const Vec3f v = points.positions[b] - points.positions[a];
-  const auto inFrame = [&](std::uint32_t i) {
-    const Vec3f& o = points.orientations[i];
-    return Vec2f(v.dot(o), v.dot(secondAxis(points.normals[i], o)));
-  };
-  const Vec2f flat = inFrame(a) + inFrame(b);
+/// World vector in the window's axes at a placed point (two dot products and its turn).
+Vec2f inWindow(const OrientedPoints& points, const NeighbourhoodPoint& at, const Vec3f& v) {
+  const Vec3f& o = points.orientations[at.index];
+  const float x = v.dot(o), y = v.dot(secondAxis(points.normals[at.index], o));
+  return {at.turn.x() * x - at.turn.y() * y, at.turn.y() * x + at.turn.x() * y};
+}
+
+/// Turn of point r, when the frame of a placed point is carried to it.
+Vec2f carriedTurn(const OrientedPoints& points, const NeighbourhoodPoint& from, std::uint32_t r) {
+  const Vec3f& normal = points.normals[r];
+  const Vec3f carried = transportTangent(points.orientations[from.index], points.normals[from.index], normal);
+  // The carried axis in r's frame is (c, s): r's frame is turned by the opposite angle against it.
+  const Vec3f& o = points.orientations[r];
+  const float c = carried.dot(o), s = carried.dot(secondAxis(normal, o));
+  const Vec2f turn(from.turn.x() * c + from.turn.y() * s, from.turn.y() * c - from.turn.x() * s);
+  const float length = turn.norm();
+  return length > 1e-6f ? Vec2f(turn / length) : from.turn;
+}
+
+/// Displacement from a placed point to one whose turn is known, world units.
+Vec2f step(const OrientedPoints& points, const NeighbourhoodPoint& from, const NeighbourhoodPoint& to) {
+  const Vec3f v = points.positions[to.index] - points.positions[from.index];
+  const Vec2f flat = inWindow(points, from, v) + inWindow(points, to, v);
   const float length = flat.norm();
   return length > 0.0f ? Vec2f(flat * (v.norm() / length)) : Vec2f::Zero();
 }
@@ -24,11 +39,11 @@ void NeighbourhoodBuilder::build(const OrientedPoints& points, const PointGraph&
                                  std::vector<NeighbourhoodPoint>& result) {
   ++current_;
   result.clear();
-  result.push_back({centre, Vec2f::Zero()});
+  result.push_back({centre, Vec2f::Zero(), axes.col(0)});
   stamp_[centre] = current_;
   order_[centre] = 0;
   const float half = 0.5f * window;
-  const Mat2f texelsFromWorld = axes / texelWorld;
+  const float texelsPerWorld = 1.0f / texelWorld;
   // `result` is the queue of the breadth-first march; points found outside the window are stamped but not placed.
   constexpr std::uint32_t outside = 0xffffffffu;
   for (std::size_t head = 0; head < result.size(); ++head) {
@@ -36,21 +51,19 @@ void NeighbourhoodBuilder::build(const OrientedPoints& points, const PointGraph&
     for (std::uint32_t r : graph.of(q)) {
       if (stamp_[r] == current_) continue;
       stamp_[r] = current_;
-      Vec2f sum = Vec2f::Zero();
+      NeighbourhoodPoint next{r, Vec2f::Zero(), carriedTurn(points, result[head], r)};
       int count = 0;
-      for (std::uint32_t placed : graph.of(r)) {
-        if (stamp_[placed] != current_ || order_[placed] == outside || placed == r) continue;
-        sum += result[order_[placed]].displacement + texelsFromWorld * step(points, placed, r);
+      const auto predict = [&](const NeighbourhoodPoint& from) {
+        next.displacement += from.displacement + texelsPerWorld * step(points, from, next);
         ++count;
-      }
-      if (count == 0) {  // the graph need not be symmetric
-        sum = result[head].displacement + texelsFromWorld * step(points, q, r);
-        count = 1;
-      }
-      const Vec2f displacement = sum / static_cast<float>(count);
-      if (displacement.cwiseAbs().maxCoeff() < half) {
+      };
+      for (std::uint32_t placed : graph.of(r))
+        if (placed != r && stamp_[placed] == current_ && order_[placed] != outside) predict(result[order_[placed]]);
+      if (count == 0) predict(result[head]);  // the graph need not be symmetric
+      next.displacement /= static_cast<float>(count);
+      if (next.displacement.cwiseAbs().maxCoeff() < half) {
         order_[r] = static_cast<std::uint32_t>(result.size());
-        result.push_back({r, displacement});
+        result.push_back(next);
       } else {
         order_[r] = outside;
       }

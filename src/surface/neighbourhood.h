@@ -13,6 +13,13 @@ namespace ebru {
 struct NeighbourhoodPoint {
   std::uint32_t index;
   Vec2f displacement;  ///< from the centre, in texels, in the axes asked for
+  Vec2f turn;          ///< (cos, sin) of the rotation from the point's own frame into those axes
+
+  Mat2f axes() const {
+    Mat2f m;
+    m << turn.x(), -turn.y(), turn.y(), turn.x();
+    return m;
+  }
 };
 
 /// The oriented points of a surface, as neighbourhoods are built from them. Spans of equal length.
@@ -22,15 +29,17 @@ struct OrientedPoints {
   std::span<const Vec3f> orientations;  ///< unit tangents; with secondAxis they make the local frames
 };
 
-/// Flattens the surroundings of points by marching displacements in the orientation field [Kwatra 2007, sec. 5.1]:
-/// ring by ring, a point's displacement is the mean of what its already placed neighbours predict. A step is measured in
-/// the mean of the frames at its two ends and keeps its length.
+/// Flattens the surroundings of points by marching displacements [Kwatra 2007, sec. 5.1]: ring by ring, a point's
+/// displacement is the mean of what its already placed neighbours predict. The paper measures each step in the
+/// orientation field; here the centre's frame is carried along (the field tells only how far each point's own frame is
+/// turned against it), which is the same where the field is parallel and leaves no eddies around its singularities. A step
+/// is measured in the mean of the carried frames at its two ends and keeps its length.
 /// Holds scratch memory: one object per thread.
 class NeighbourhoodBuilder {
  public:
   explicit NeighbourhoodBuilder(std::size_t pointCount) : stamp_(pointCount, 0), order_(pointCount) {}
 
-  /// @param axes  rotates displacements of the centre's frame into the axes of the window
+  /// @param axes  rotation of the centre's frame into the axes of the window
   /// @param window  width in texels: |components of displacement| < window / 2
   /// @param texelWorld  metres per texel
   /// @param result  the centre first; overwritten

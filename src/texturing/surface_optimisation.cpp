@@ -124,7 +124,7 @@ void WindowSet::transpose(std::size_t pointCount) {
   std::vector<std::size_t> next(proposalOffsets_.begin(), proposalOffsets_.end() - 1);
   for (std::size_t w = 0; w < size(); ++w)
     for (const NeighbourhoodPoint& m : members(w))
-      proposals_[next[m.index]++] = {static_cast<std::uint32_t>(w), m.displacement};
+      proposals_[next[m.index]++] = {static_cast<std::uint32_t>(w), m.displacement, m.turn};
 }
 
 void WindowSet::matchRandomly(std::uint64_t seed, int frame) {
@@ -303,7 +303,7 @@ std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const
     const std::size_t w = chosen->window;
     texture.colour[i] = chosenColour;
     texture.st[i] = scale_ * exemplarPlace(w, chosen->displacement);
-    texture.jacobian[i] = rotation_[w] * axes_[w];
+    texture.jacobian[i] = rotation_[w] * NeighbourhoodPoint{0, Vec2f::Zero(), chosen->turn}.axes();
     replaced[i] = 1;
   });
   return replaced;

@@ -69,7 +69,7 @@ class WindowSet {
  private:
   struct Proposal {
     std::uint32_t window;
-    Vec2f displacement;
+    Vec2f displacement, turn;  ///< as in NeighbourhoodPoint
   };
   std::span<const NeighbourhoodPoint> members(std::size_t w) const {
     return {members_.data() + offsets_[w], members_.data() + offsets_[w + 1]};
