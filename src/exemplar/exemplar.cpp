@@ -38,12 +38,12 @@ void cubicDerivatives(float t, float w[4]) {
   w[3] = 0.5f * (3.0f * t2 - 2.0f * t);
 }
 
-/// The four clamped tap indices around a coordinate in texels, and the fraction between the middle two.
-float locateTaps(float coordinate, int size, int taps[4]) {
+/// Where a coordinate in texels falls: the first of its four taps, and the fraction between the middle two.
+inline float locate(float coordinate, int size, int& first) {
   const float c = std::clamp(coordinate - 0.5f, -1.0f, static_cast<float>(size));
-  const int base = static_cast<int>(std::floor(c));
-  for (int k = 0; k < 4; ++k) taps[k] = std::clamp(base - 1 + k, 0, size - 1);
-  return c - static_cast<float>(base);
+  const float base = std::floor(c);
+  first = static_cast<int>(base) - 1;
+  return c - base;
 }
 
 }  // namespace
@@ -110,41 +110,54 @@ void Exemplar::finish() {
   contrast_ = static_cast<float>(std::sqrt(variance.head<3>().mean()));
 }
 
-Texel Exemplar::sample(int level, const Vec2f& uv) const {
-  int xs[4], ys[4];
-  float wx[4], wy[4];
-  cubicWeights(locateTaps(uv.x(), width(level), xs), wx);
-  cubicWeights(locateTaps(uv.y(), height(level), ys), wy);
-  Texel sum = Texel::Zero();
-  for (int j = 0; j < 4; ++j) {
-    Texel row = Texel::Zero();
-    for (int i = 0; i < 4; ++i) row += wx[i] * texel(level, xs[i], ys[j]);
-    sum += wy[j] * row;
+const Texel* Exemplar::taps(const Level& level, int x, int y, std::array<Texel, 16>& border, int& stride) const {
+  if (x >= 0 && y >= 0 && x + 4 <= level.width && y + 4 <= level.height) {
+    stride = level.width;
+    return level.texels.data() + static_cast<std::ptrdiff_t>(y) * level.width + x;
   }
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      border[static_cast<std::size_t>(4 * j + i)] =
+          level.texels[static_cast<std::size_t>(std::clamp(y + j, 0, level.height - 1) * level.width +
+                                                std::clamp(x + i, 0, level.width - 1))];
+  stride = 4;
+  return border.data();
+}
+
+Texel Exemplar::sample(int level, const Vec2f& uv) const {
+  const Level& l = levels_[static_cast<std::size_t>(level)];
+  int x, y, stride;
+  float wx[4], wy[4];
+  cubicWeights(locate(uv.x(), l.width, x), wx);
+  cubicWeights(locate(uv.y(), l.height, y), wy);
+  std::array<Texel, 16> border;
+  const Texel* row = taps(l, x, y, border, stride);
+  Texel sum = Texel::Zero();
+  for (int j = 0; j < 4; ++j, row += stride)
+    sum += wy[j] * ((wx[0] * row[0] + wx[1] * row[1]) + (wx[2] * row[2] + wx[3] * row[3]));
   return sum;
 }
 
 Texel Exemplar::sample(int level, const Vec2f& uv, Texel& du, Texel& dv) const {
-  int xs[4], ys[4];
+  const Level& l = levels_[static_cast<std::size_t>(level)];
+  int x, y, stride;
   float wx[4], wy[4], dx[4], dy[4];
-  const float tx = locateTaps(uv.x(), width(level), xs);
-  const float ty = locateTaps(uv.y(), height(level), ys);
+  const float tx = locate(uv.x(), l.width, x);
+  const float ty = locate(uv.y(), l.height, y);
   cubicWeights(tx, wx);
   cubicWeights(ty, wy);
   cubicDerivatives(tx, dx);
   cubicDerivatives(ty, dy);
+  std::array<Texel, 16> border;
+  const Texel* row = taps(l, x, y, border, stride);
   Texel sum = Texel::Zero();
   du = dv = Texel::Zero();
-  for (int j = 0; j < 4; ++j) {
-    Texel row = Texel::Zero(), slope = Texel::Zero();
-    for (int i = 0; i < 4; ++i) {
-      const Texel& t = texel(level, xs[i], ys[j]);
-      row += wx[i] * t;
-      slope += dx[i] * t;
-    }
-    sum += wy[j] * row;
+  for (int j = 0; j < 4; ++j, row += stride) {
+    const Texel value = (wx[0] * row[0] + wx[1] * row[1]) + (wx[2] * row[2] + wx[3] * row[3]);
+    const Texel slope = (dx[0] * row[0] + dx[1] * row[1]) + (dx[2] * row[2] + dx[3] * row[3]);
+    sum += wy[j] * value;
     du += wy[j] * slope;
-    dv += dy[j] * row;
+    dv += dy[j] * value;
   }
   return sum;
 }

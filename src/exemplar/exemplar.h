@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -57,6 +58,8 @@ class Exemplar {
     std::vector<Texel> texels;
   };
   void finish();
+  /// The 4 x 4 texels from (x, y) on: in place, or clamped to the border and copied.
+  const Texel* taps(const Level& level, int x, int y, std::array<Texel, 16>& border, int& stride) const;
 
   std::vector<Level> levels_;
   bool hasHeight_ = false;

@@ -28,6 +28,25 @@ class CellGrid {
           for (std::uint32_t i = head(keyOf({x, y, z})); i != none; i = entries_[i].next) visit(entries_[i].index);
   }
 
+  /// True if matches(index) holds for some point near the ball; the cell of its centre is asked first.
+  template <class Matches>
+  bool anyNear(const Vec3f& pWorld, float radiusWorld, Matches&& matches) const {
+    const auto inCell = [&](const Vec3i& cell) {
+      for (std::uint32_t i = head(keyOf(cell)); i != none; i = entries_[i].next)
+        if (matches(entries_[i].index)) return true;
+      return false;
+    };
+    const Vec3i centre = cellOf(pWorld);
+    if (inCell(centre)) return true;
+    const Vec3i lower = cellOf(pWorld - Vec3f::Constant(radiusWorld));
+    const Vec3i upper = cellOf(pWorld + Vec3f::Constant(radiusWorld));
+    for (int z = lower.z(); z <= upper.z(); ++z)
+      for (int y = lower.y(); y <= upper.y(); ++y)
+        for (int x = lower.x(); x <= upper.x(); ++x)
+          if (const Vec3i cell(x, y, z); cell != centre && inCell(cell)) return true;
+    return false;
+  }
+
   /// Sorts by cell: points close in space get close keys (Morton order of the cells).
   static std::uint64_t mortonKey(const Vec3f& pWorld, float cellSizeWorld);
 

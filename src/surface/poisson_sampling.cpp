@@ -38,12 +38,9 @@ int dartCount(double expected, Random& random) {
 
 bool crowded(const CellGrid& grid, const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
              const Dart& dart, float radius) {
-  bool found = false;
-  grid.forEachNear(dart.position, radius, [&](std::uint32_t i) {
-    found = found || ((positions[i] - dart.position).squaredNorm() < radius * radius &&
-                      normals[i].dot(dart.normal) > 0.0f);
+  return grid.anyNear(dart.position, radius, [&](std::uint32_t i) {
+    return (positions[i] - dart.position).squaredNorm() < radius * radius && normals[i].dot(dart.normal) > 0.0f;
   });
-  return found;
 }
 
 }  // namespace

@@ -18,6 +18,11 @@ constexpr int rasterPixels = NeighbourhoodSearch::pixels;
 /// A window found by search has to be this much better than one that continues a neighbour's.
 constexpr float coherence = 0.8f;
 constexpr int refinementSteps = 2;
+constexpr float accurate = 0.05f;  ///< a window that fits this well is not refined further
+/// Members of a window that are asked how well it fits; more hardly change the answer.
+constexpr std::size_t sampledMembers = 64;
+
+std::size_t sampleStride(std::size_t members) { return std::max<std::size_t>(1, members / sampledMembers); }
 
 float squaredColourDistance(const Texel& a, const Texel& b) { return (a - b).square().sum(); }
 
@@ -76,10 +81,9 @@ void WindowSet::chooseCentres(const OrientedPoints& points, float spacingWorld,
   windowOfPoint_.assign(points.positions.size(), none);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     if (!active.empty() && !active[i]) continue;
-    bool near = false;
-    grid.forEachNear(points.positions[i], spacingWorld, [&](std::uint32_t j) {
-      near = near || ((points.positions[j] - points.positions[i]).squaredNorm() < spacingWorld * spacingWorld &&
-                      points.normals[j].dot(points.normals[i]) > 0.5f);
+    const bool near = grid.anyNear(points.positions[i], spacingWorld, [&](std::uint32_t j) {
+      return (points.positions[j] - points.positions[i]).squaredNorm() < spacingWorld * spacingWorld &&
+             points.normals[j].dot(points.normals[i]) > 0.5f;
     });
     if (near) continue;
     grid.insert(static_cast<std::uint32_t>(i), points.positions[i]);
@@ -137,17 +141,17 @@ void WindowSet::matchRandomly(std::uint64_t seed, int frame) {
   });
 }
 
-void WindowSet::matchOwnCharts(const SurfaceTexture& texture) {
+void WindowSet::matchOwnCharts(const SurfaceTexture& texture, float tolerance) {
   parallelFor(size(), 64, [&](std::size_t w) {
     uv_[w] = clampInside(texture.st[centres_[w]] / scale_);
-    errors_[w] = refine(w, texture.colour, refinementSteps, uv_[w], rotation_[w]);
+    refine(w, texture.colour, refinementSteps, tolerance);
   });
 }
 
 void WindowSet::matchNearest(const SurfaceTexture& texture, float tolerance) {
   const std::vector<Vec2f> previous = uv_;
   parallelFor(size(), 16, [&](std::size_t w) {
-    if (tolerance > 0.0f) errors_[w] = refine(w, texture.colour, 1, uv_[w], rotation_[w]);
+    if (tolerance > 0.0f) refine(w, texture.colour, refinementSteps, tolerance);
     if (errors_[w] > tolerance) matchOne(w, texture, previous);
   });
 }
@@ -168,7 +172,7 @@ void WindowSet::matchOne(std::size_t w, const SurfaceTexture& texture, const std
   const NeighbourhoodSearch::Match best = search_.nearest(query, coherent);
   uv_[w] = searchScale_ * (best.texel.cast<float>() + Vec2f::Constant(0.5f));
   rotation_[w] = Mat2f::Identity();
-  errors_[w] = refine(w, texture.colour, refinementSteps, uv_[w], rotation_[w]);
+  refine(w, texture.colour, refinementSteps, accurate);
 }
 
 NeighbourhoodSearch::Window WindowSet::raster(std::size_t w, std::span<const Texel> colour) const {
@@ -201,51 +205,67 @@ NeighbourhoodSearch::Window WindowSet::raster(std::size_t w, std::span<const Tex
 }
 
 float WindowSet::falloff(const Vec2f& displacement) const {
-  // The same Gaussian as in NeighbourhoodSearch.
-  return std::exp(-displacement.squaredNorm() / (18.0f * pixelSpacing() * pixelSpacing()));
+  // Zero at the window's corners.
+  const float half = 0.5f * windowTexels();
+  const float t = std::max(0.0f, 1.0f - displacement.squaredNorm() / (2.0f * half * half));
+  return t * t;
 }
 
-float WindowSet::refine(std::size_t w, std::span<const Texel> colour, int steps, Vec2f& uv, Mat2f& rotation) const {
-  // Gauss-Newton on sum g |colour - exemplar(uv + R d)|^2 over position and angle.
+float WindowSet::error(std::size_t w, std::span<const Texel> colour, const Vec2f& uv, const Mat2f& rotation) const {
   const std::span<const NeighbourhoodPoint> points = members(w);
-  Vec2f tryUv = uv;
-  Mat2f tryRotation = rotation;
-  float bestError = std::numeric_limits<float>::max();
-  for (int step = 0;; ++step) {
-    Eigen::Matrix3f normalMatrix = Eigen::Matrix3f::Zero();
-    Eigen::Vector3f rightSide = Eigen::Vector3f::Zero();
-    float squares = 0.0f, weights = 0.0f;
-    for (const NeighbourhoodPoint& m : points) {
-      const Vec2f d = tryRotation * m.displacement;
-      Texel du, dv;
-      const Texel residual = colour[m.index] - exemplar_.sample(level_, tryUv + d, du, dv);
-      const float g = falloff(m.displacement);
-      squares += g * residual.square().sum();
-      weights += g;
-      const Texel dAngle = dv * d.x() - du * d.y();
-      const Texel* gradient[3] = {&du, &dv, &dAngle};
-      for (int r = 0; r < 3; ++r) {
-        rightSide[r] += g * (*gradient[r] * residual).sum();
-        for (int c = r; c < 3; ++c) normalMatrix(r, c) += g * (*gradient[r] * *gradient[c]).sum();
-      }
-    }
-    const float error = std::sqrt(squares / (3.0f * std::max(weights, 1e-6f)));
-    if (error < bestError) {
-      bestError = error;
-      uv = tryUv;
-      rotation = tryRotation;
-    } else {
-      break;
-    }
-    if (step == steps) break;
-    normalMatrix = normalMatrix.selfadjointView<Eigen::Upper>();
-    normalMatrix.diagonal() += Eigen::Vector3f(1.0f, 1.0f, 8.0f) * (1e-3f * normalMatrix.diagonal().maxCoeff() + 1e-9f);
-    const Eigen::Vector3f delta = normalMatrix.inverse() * rightSide;
-    const float limit = std::max(1.0f, std::max(delta.head<2>().norm(), std::abs(delta[2]) / 0.1f));
-    tryUv = clampInside(tryUv + delta.head<2>() / limit);
-    tryRotation = Eigen::Rotation2Df(delta[2] / limit).toRotationMatrix() * tryRotation;
+  const std::size_t stride = sampleStride(points.size());
+  float squares = 0.0f, weights = 0.0f;
+  for (std::size_t k = 0; k < points.size(); k += stride) {
+    const NeighbourhoodPoint& m = points[k];
+    const float g = falloff(m.displacement);
+    squares += g * squaredColourDistance(colour[m.index], exemplar_.sample(level_, uv + rotation * m.displacement));
+    weights += g;
   }
-  return bestError / std::max(exemplar_.contrast(), 1e-4f);
+  return std::sqrt(squares / (3.0f * std::max(weights, 1e-6f))) / std::max(exemplar_.contrast(), 1e-4f);
+}
+
+void WindowSet::gaussNewtonStep(std::size_t w, std::span<const Texel> colour, Vec2f& uv, Mat2f& rotation) const {
+  const std::span<const NeighbourhoodPoint> points = members(w);
+  const std::size_t stride = sampleStride(points.size());
+  Eigen::Matrix3f normalMatrix = Eigen::Matrix3f::Zero();
+  Eigen::Vector3f rightSide = Eigen::Vector3f::Zero();
+  for (std::size_t k = 0; k < points.size(); k += stride) {
+    const NeighbourhoodPoint& m = points[k];
+    const Vec2f d = rotation * m.displacement;
+    Texel du, dv;
+    const Texel residual = colour[m.index] - exemplar_.sample(level_, uv + d, du, dv);
+    const Texel dAngle = dv * d.x() - du * d.y();
+    const float g = falloff(m.displacement);
+    rightSide += g * Eigen::Vector3f((du * residual).sum(), (dv * residual).sum(), (dAngle * residual).sum());
+    normalMatrix(0, 0) += g * du.square().sum();
+    normalMatrix(0, 1) += g * (du * dv).sum();
+    normalMatrix(0, 2) += g * (du * dAngle).sum();
+    normalMatrix(1, 1) += g * dv.square().sum();
+    normalMatrix(1, 2) += g * (dv * dAngle).sum();
+    normalMatrix(2, 2) += g * dAngle.square().sum();
+  }
+  normalMatrix.triangularView<Eigen::StrictlyLower>() = normalMatrix.transpose();
+  // Damped a little, the angle more: it is the least certain.
+  normalMatrix.diagonal() += Eigen::Vector3f(1.0f, 1.0f, 8.0f) * (1e-3f * normalMatrix.diagonal().maxCoeff() + 1e-9f);
+  const Eigen::Vector3f delta = normalMatrix.inverse() * rightSide;
+  // At most a texel and a tenth of a radian: the linearisation holds no farther.
+  const float limit = std::max({1.0f, delta.head<2>().norm(), std::abs(delta[2]) / 0.1f});
+  uv = clampInside(uv + delta.head<2>() / limit);
+  rotation = Eigen::Rotation2Df(delta[2] / limit).toRotationMatrix() * rotation;
+}
+
+void WindowSet::refine(std::size_t w, std::span<const Texel> colour, int steps, float goodEnough) {
+  errors_[w] = error(w, colour, uv_[w], rotation_[w]);
+  for (int step = 0; step < steps && errors_[w] > goodEnough; ++step) {
+    Vec2f uv = uv_[w];
+    Mat2f rotation = rotation_[w];
+    gaussNewtonStep(w, colour, uv, rotation);
+    const float improved = error(w, colour, uv, rotation);
+    if (!(improved < errors_[w])) return;
+    errors_[w] = improved;
+    uv_[w] = uv;
+    rotation_[w] = rotation;
+  }
 }
 
 float WindowSet::fit(std::size_t w) const {

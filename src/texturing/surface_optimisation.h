@@ -46,8 +46,8 @@ class WindowSet {
 
   /// Random exemplar windows as matches [Kwatra 2005, algorithm 1].
   void matchRandomly(std::uint64_t seed, int frame);
-  /// Each window keeps the chart of its centre: the transported texture, laid rigidly.
-  void matchOwnCharts(const SurfaceTexture& texture);
+  /// Each window keeps the chart of its centre, laid rigidly; refined where it does not fit within `tolerance`.
+  void matchOwnCharts(const SurfaceTexture& texture, float tolerance);
   /// Steps 1 and 2. A window whose match, refined, fits within `tolerance` (relative to the exemplar's contrast) keeps it;
   /// the others are searched. 0: all are searched.
   void matchNearest(const SurfaceTexture& texture, float tolerance);
@@ -83,7 +83,11 @@ class WindowSet {
   void transpose(std::size_t pointCount);
   NeighbourhoodSearch::Window raster(std::size_t w, std::span<const Texel> colour) const;
   void matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Vec2f>& previous);
-  float refine(std::size_t w, std::span<const Texel> colour, int steps, Vec2f& uv, Mat2f& rotation) const;
+  float error(std::size_t w, std::span<const Texel> colour, const Vec2f& uv, const Mat2f& rotation) const;
+  /// One step on sum g |colour - exemplar(uv + R d)|^2 over position and angle.
+  void gaussNewtonStep(std::size_t w, std::span<const Texel> colour, Vec2f& uv, Mat2f& rotation) const;
+  /// Brings a match and its error up to date; no step is taken from an error of at most `goodEnough`.
+  void refine(std::size_t w, std::span<const Texel> colour, int steps, float goodEnough);
   Vec2f exemplarPlace(std::size_t w, const Vec2f& displacement) const {
     return uv_[w] + rotation_[w] * displacement;
   }

@@ -201,7 +201,7 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
       windows.matchRandomly(seed_, frame);
       windows.average(view.texture, {}, {});
     } else {
-      windows.matchOwnCharts(view.texture);
+      windows.matchOwnCharts(view.texture, goodFit);
     }
     const int iterations = coarsest ? 8 : wide ? 3 : 2;
     for (int i = 0; i < iterations; ++i) {
@@ -249,7 +249,7 @@ void SynthesisMethod::refit(TextureParticles& particles, const std::vector<Parti
   for (const NeighbourhoodSearch* search : passes) {
     WindowSet windows(view.points, graph, *search, *exemplar_, 0, texelWorld_, 0.25f, active, view.texture.jacobian);
     if (windows.size() == 0) return;
-    windows.matchOwnCharts(view.texture);
+    windows.matchOwnCharts(view.texture, poorFit);
     const std::vector<std::uint8_t> poor = windows.coveredByPoorWindow(poorFit);
     if (std::find(poor.begin(), poor.end(), 1) == poor.end()) continue;
     for (int i = 0; i < 2; ++i) {

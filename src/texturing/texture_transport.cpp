@@ -85,10 +85,9 @@ std::vector<std::uint32_t> uncrowded(const TextureParticles& particles, const st
     }
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (fates[i] == ParticleFate::still) continue;
-    bool crowded = false;
-    grid.forEachNear(particles.position[i], radius, [&](std::uint32_t j) {
-      crowded = crowded || ((particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
-                            particles.normal[j].dot(particles.normal[i]) > 0.0f);
+    const bool crowded = grid.anyNear(particles.position[i], radius, [&](std::uint32_t j) {
+      return (particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
+             particles.normal[j].dot(particles.normal[i]) > 0.0f;
     });
     if (crowded) continue;
     grid.insert(static_cast<std::uint32_t>(i), particles.position[i]);
