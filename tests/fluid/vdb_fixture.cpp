@@ -27,12 +27,21 @@ openvdb::FloatGrid::Ptr makeSurface(const VdbCache& cache) {
   }
   const LevelSet levelSet = levelSetFromFunction(distance, bounds, static_cast<float>(cache.voxelSize),
                                                  static_cast<float>(cache.halfWidth), true);
-  openvdb::FloatGrid::Ptr grid = std::static_pointer_cast<const openvdb::FloatGrid>(levelSet)->deepCopy();
+  // Nobody else holds it yet, so it may be changed.
+  const auto grid = std::const_pointer_cast<openvdb::FloatGrid>(
+      std::static_pointer_cast<const openvdb::FloatGrid>(levelSet));
   grid->setName(cache.surfaceName);
   if (cache.fog) grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-  if (cache.distanceScale != 1.0)
-    for (auto it = grid->beginValueOn(); it; ++it) it.setValue(*it * static_cast<float>(cache.distanceScale));
-  if (cache.surfaceNotFinite) grid->beginValueOn().setValue(static_cast<float>(notANumber));
+  for (auto leaf = grid->tree().beginLeaf(); leaf; ++leaf)
+    for (openvdb::Index n = 0; n < leaf->SIZE; ++n) {
+      if (!leaf->isValueOn(n)) continue;
+      leaf->setValueOnly(n, leaf->getValue(n) * static_cast<float>(cache.distanceScale));
+    }
+  if (cache.surfaceNotFinite) {
+    const auto leaf = grid->tree().beginLeaf();
+    for (openvdb::Index n = 0; n < leaf->SIZE; ++n)
+      if (leaf->isValueOn(n)) leaf->setValueOnly(n, static_cast<float>(notANumber));
+  }
   if (cache.surfaceStretchX != 1.0) {
     openvdb::math::Transform::Ptr transform =
         openvdb::math::Transform::createLinearTransform(cache.voxelSize);
