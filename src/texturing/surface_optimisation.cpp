@@ -293,6 +293,25 @@ void WindowSet::average(const SurfaceTexture& texture, const TransportedTexture&
   });
 }
 
+void WindowSet::take(const Proposal& p, const SurfaceTexture& texture, std::size_t point) const {
+  const Vec2f place = exemplarPlace(p.window, p.displacement);
+  texture.colour[point] = exemplar_.sample(level_, place);
+  texture.st[point] = scale_ * place;
+  texture.jacobian[point] = rotation_[p.window] * NeighbourhoodPoint{0, Vec2f::Zero(), p.turn}.axes();
+}
+
+void WindowSet::lay(const SurfaceTexture& texture) const {
+  parallelFor(texture.colour.size(), 1024, [&](std::size_t i) {
+    const std::span<const Proposal> all = proposals(i);
+    if (all.empty()) return;
+    take(*std::min_element(all.begin(), all.end(),
+                           [](const Proposal& a, const Proposal& b) {
+                             return a.displacement.squaredNorm() < b.displacement.squaredNorm();
+                           }),
+         texture, i);
+  });
+}
+
 std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const TransportedTexture& transported,
                                             std::span<const std::uint8_t> only, float keepMargin) const {
   const float contrast = std::max(exemplar_.contrast(), 1e-4f);
@@ -302,7 +321,6 @@ std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const
     const Texel mean = texture.colour[i];
     float best = std::numeric_limits<float>::max();
     const Proposal* chosen = nullptr;
-    Texel chosenColour = mean;
     for (const Proposal& p : proposals(i)) {
       const Texel colour = exemplar_.sample(level_, exemplarPlace(p.window, p.displacement));
       // A window that fits badly is worth less than one that fits well but differs a little more.
@@ -310,7 +328,6 @@ std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const
       if (cost < best) {
         best = cost;
         chosen = &p;
-        chosenColour = colour;
       }
     }
     if (!transported.colour.empty() && transported.weight[i] >= 0.0f) {
@@ -320,10 +337,7 @@ std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const
         return;
       }
     }
-    const std::size_t w = chosen->window;
-    texture.colour[i] = chosenColour;
-    texture.st[i] = scale_ * exemplarPlace(w, chosen->displacement);
-    texture.jacobian[i] = rotation_[w] * NeighbourhoodPoint{0, Vec2f::Zero(), chosen->turn}.axes();
+    take(*chosen, texture, i);
     replaced[i] = 1;
   });
   return replaced;

@@ -46,6 +46,8 @@ class WindowSet {
 
   /// Random exemplar windows as matches [Kwatra 2005, algorithm 1].
   void matchRandomly(std::uint64_t seed, int frame);
+  /// Lays the texture from the matches as they are: each point takes the proposal of the window whose centre is nearest.
+  void lay(const SurfaceTexture& texture) const;
   /// Each window keeps the chart of its centre, laid rigidly; refined where it does not fit within `tolerance`.
   void matchOwnCharts(const SurfaceTexture& texture, float tolerance);
   /// Steps 1 and 2. A window whose match, refined, fits within `tolerance` (relative to the exemplar's contrast) keeps it;
@@ -91,6 +93,7 @@ class WindowSet {
   Vec2f exemplarPlace(std::size_t w, const Vec2f& displacement) const {
     return uv_[w] + rotation_[w] * displacement;
   }
+  void take(const Proposal& p, const SurfaceTexture& texture, std::size_t point) const;
   float fit(std::size_t w) const;
   float falloff(const Vec2f& displacement) const;
   float pixelSpacing() const { return search_.pixelSpacing() * searchScale_; }

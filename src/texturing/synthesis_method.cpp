@@ -193,17 +193,18 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
   std::copy(orientation.begin(), orientation.end(), particles.orientation.begin());
 
   const auto l = static_cast<std::size_t>(level);
+  if (coarsest) {
+    // Random exemplar windows side by side: whole features from all over the exemplar, whose seams the passes heal.
+    WindowSet windows(view.points, graph, wide_[l], *exemplar_, level, texel, 0.6f, {}, {});
+    windows.matchRandomly(seed_, frame);
+    windows.lay(view.texture);
+  }
   for (const NeighbourhoodSearch* search : {&wide_[l], &narrow_[l]}) {
     const bool wide = search->window() == 17;
     WindowSet windows(view.points, graph, *search, *exemplar_, level, texel, 0.25f, {}, {});
     if (windows.size() == 0) return;
-    if (coarsest && wide) {
-      windows.matchRandomly(seed_, frame);
-      windows.average(view.texture, {}, {});
-    } else {
-      windows.matchOwnCharts(view.texture, goodFit);
-    }
-    const int iterations = coarsest ? 8 : wide ? 3 : 2;
+    windows.matchOwnCharts(view.texture, goodFit);
+    const int iterations = coarsest ? 6 : wide ? 3 : 2;
     for (int i = 0; i < iterations; ++i) {
       windows.matchNearest(view.texture, coarsest ? 0.0f : goodFit);
       windows.average(view.texture, {}, {});
