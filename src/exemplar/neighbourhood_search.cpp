@@ -15,15 +15,26 @@ constexpr int raster = NeighbourhoodSearch::raster;
 constexpr int pixels = NeighbourhoodSearch::pixels;
 constexpr int dimensions = NeighbourhoodSearch::dimensions;
 constexpr int channels = 4;
-constexpr float kdTreeEps = 1.0f;
+constexpr float kdTreeEps = 1.5f;
+/// The tree holds every second window of every second row: matches are refined to fractions of a texel afterwards.
+constexpr int treeStride = 2;
 using Raw = Eigen::Matrix<float, pixels * channels, 1>;
 using Projection = Eigen::Matrix<float, dimensions, pixels * channels>;
 
+/// The windows in the tree, numbered row by row.
 struct DescriptorCloud {
   const std::vector<NeighbourhoodSearch::Descriptor>* descriptors;
-  std::size_t kdtree_get_point_count() const { return descriptors->size(); }
+  int columns, rows;  ///< of all windows
+
+  int treeColumns() const { return (columns + treeStride - 1) / treeStride; }
+  int treeRows() const { return (rows + treeStride - 1) / treeStride; }
+  Vec2i place(std::size_t i) const {
+    return treeStride * Vec2i(static_cast<int>(i) % treeColumns(), static_cast<int>(i) / treeColumns());
+  }
+  std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(treeColumns() * treeRows()); }
   float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return (*descriptors)[i][static_cast<Eigen::Index>(axis)];
+    const Vec2i at = place(i);
+    return (*descriptors)[static_cast<std::size_t>(at.y() * columns + at.x())][static_cast<Eigen::Index>(axis)];
   }
   template <class Box>
   bool kdtree_get_bbox(Box&) const {
@@ -71,7 +82,7 @@ struct NeighbourhoodSearch::Impl {
   Raw mean = Raw::Zero();
   Projection projection = Projection::Zero();
   std::vector<Descriptor> descriptors;  ///< rows * columns
-  DescriptorCloud cloud{&descriptors};
+  DescriptorCloud cloud{};
   std::unique_ptr<Tree> tree;
 
   Impl(const Exemplar& e, int l, int w) : exemplar(e), level(l), window(w), spacing(w / 8), half(w / 2) {
@@ -85,6 +96,7 @@ struct NeighbourhoodSearch::Impl {
         descriptors[y * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] =
             projection * (weighted(windowAt(x + half, static_cast<int>(y) + half)) - mean);
     });
+    cloud = {&descriptors, columns, rows};
     tree = std::make_unique<Tree>(dimensions, cloud,
                                   nanoflann::KDTreeSingleIndexAdaptorParams(8));
   }
@@ -166,8 +178,7 @@ NeighbourhoodSearch::Match NeighbourhoodSearch::nearest(const Descriptor& query,
   parameters.eps = kdTreeEps;
   impl_->tree->findNeighbors(best, query.data(), parameters);
   if (best.size() == 0) return bound;
-  const int i = static_cast<int>(best.index());
-  return {{i % impl_->columns + impl_->half, i / impl_->columns + impl_->half}, best.distance()};
+  return {impl_->cloud.place(best.index()) + Vec2i::Constant(impl_->half), best.distance()};
 }
 
 NeighbourhoodSearch::Match NeighbourhoodSearch::at(const Vec2i& texel, const Descriptor& query) const {

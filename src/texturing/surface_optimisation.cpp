@@ -148,29 +148,35 @@ void WindowSet::matchOwnCharts(const SurfaceTexture& texture, float tolerance) {
   });
 }
 
-void WindowSet::matchNearest(const SurfaceTexture& texture, float tolerance) {
+void WindowSet::matchNearest(const SurfaceTexture& texture, float tolerance, bool everywhere) {
   const std::vector<Vec2f> previous = uv_;
   parallelFor(size(), 16, [&](std::size_t w) {
     if (tolerance > 0.0f) refine(w, texture.colour, refinementSteps, tolerance);
-    if (errors_[w] > tolerance) matchOne(w, texture, previous);
+    if (errors_[w] > tolerance) matchOne(w, texture, previous, everywhere);
   });
 }
 
-void WindowSet::matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Vec2f>& previous) {
+void WindowSet::matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Vec2f>& previous,
+                         bool everywhere) {
   const NeighbourhoodSearch::Descriptor query = search_.describe(raster(w, texture.colour));
   const auto texelOf = [&](const Vec2f& uv) {
     return Vec2i((uv / searchScale_).array().floor().cast<int>().matrix());
   };
   NeighbourhoodSearch::Match coherent = search_.at(texelOf(previous[w]), query);
+  Vec2f coherentUv = previous[w];
   for (const NeighbourhoodPoint& m : members(w)) {
     const std::uint32_t other = windowOfPoint_[m.index];
     if (other == none || other == w) continue;
     const NeighbourhoodSearch::Match match = search_.at(texelOf(previous[other] - m.displacement), query);
-    if (match.distanceSquared < coherent.distanceSquared) coherent = match;
+    if (match.distanceSquared >= coherent.distanceSquared) continue;
+    coherent = match;
+    coherentUv = clampInside(previous[other] - m.displacement);
   }
-  coherent.distanceSquared *= coherence;
-  const NeighbourhoodSearch::Match best = search_.nearest(query, coherent);
-  uv_[w] = searchScale_ * (best.texel.cast<float>() + Vec2f::Constant(0.5f));
+  NeighbourhoodSearch::Match best = coherent;
+  best.distanceSquared *= coherence;
+  if (everywhere) best = search_.nearest(query, best);
+  uv_[w] = best.texel == coherent.texel ? coherentUv
+                                        : searchScale_ * (best.texel.cast<float>() + Vec2f::Constant(0.5f));
   rotation_[w] = Mat2f::Identity();
   refine(w, texture.colour, refinementSteps, accurate);
 }

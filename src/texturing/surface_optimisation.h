@@ -52,7 +52,8 @@ class WindowSet {
   void matchOwnCharts(const SurfaceTexture& texture, float tolerance);
   /// Steps 1 and 2. A window whose match, refined, fits within `tolerance` (relative to the exemplar's contrast) keeps it;
   /// the others are searched. 0: all are searched.
-  void matchNearest(const SurfaceTexture& texture, float tolerance);
+  /// @param everywhere  search the whole exemplar, else only what continues the window's own match and its neighbours'
+  void matchNearest(const SurfaceTexture& texture, float tolerance, bool everywhere);
   /// Step 3: weighted means of the windows' proposals and the transported colours. Only points with a window, and of
   /// those, if `only` is not empty, the ones it marks.
   void average(const SurfaceTexture& texture, const TransportedTexture& transported,
@@ -84,7 +85,7 @@ class WindowSet {
                std::span<const Mat2f> jacobian);
   void transpose(std::size_t pointCount);
   NeighbourhoodSearch::Window raster(std::size_t w, std::span<const Texel> colour) const;
-  void matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Vec2f>& previous);
+  void matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Vec2f>& previous, bool everywhere);
   float error(std::size_t w, std::span<const Texel> colour, const Vec2f& uv, const Mat2f& rotation) const;
   /// One step on sum g |colour - exemplar(uv + R d)|^2 over position and angle.
   void gaussNewtonStep(std::size_t w, std::span<const Texel> colour, Vec2f& uv, Mat2f& rotation) const;

@@ -206,7 +206,7 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
     windows.matchOwnCharts(view.texture, goodFit);
     const int iterations = coarsest ? 6 : wide ? 3 : 2;
     for (int i = 0; i < iterations; ++i) {
-      windows.matchNearest(view.texture, coarsest ? 0.0f : goodFit);
+      windows.matchNearest(view.texture, coarsest ? 0.0f : goodFit, coarsest || i == 0);
       windows.average(view.texture, {}, {});
     }
     windows.choose(view.texture, {}, {}, 0.0f);
@@ -254,7 +254,7 @@ void SynthesisMethod::refit(TextureParticles& particles, const std::vector<Parti
     const std::vector<std::uint8_t> poor = windows.coveredByPoorWindow(poorFit);
     if (std::find(poor.begin(), poor.end(), 1) == poor.end()) continue;
     for (int i = 0; i < 2; ++i) {
-      windows.matchNearest(view.texture, poorFit);
+      windows.matchNearest(view.texture, poorFit, i == 0);
       windows.average(view.texture, transported, poor);
     }
     const std::vector<std::uint8_t> replaced = windows.choose(view.texture, transported, poor, keepMargin);
