@@ -1,13 +1,20 @@
 """Every bad input has its own message and exit code, and leaves nothing behind."""
 
+import resource
+
 from support import *
 
 USAGE, INPUT = 2, 3
 
 
+def limit_memory():
+    """No input, however damaged, is a reason to ask for more than this."""
+    resource.setrlimit(resource.RLIMIT_AS, (6 << 30, 6 << 30))
+
+
 def refuses(folder, shot, code, *parts, arguments=()):
     out = folder / "out"
-    run = render(shot, out, *arguments, expect=code)
+    run = render(shot, out, *arguments, expect=code, preexec_fn=limit_memory)
     says(run, "ebru: error: ", *parts)
     assert "bug" not in run.stderr, run.stderr
     assert_nothing_written(out)
