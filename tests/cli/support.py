@@ -12,9 +12,11 @@ import sys
 import tempfile
 import traceback
 
-EBRU = os.environ.get("EBRU", "ebru")
-MAKE_VDB = os.environ.get("EBRU_MAKE_VDB", "make_vdb")
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# CTest names the programs; by hand those of the release build are taken.
+EBRU = os.environ.get("EBRU", str(ROOT / "build/release/ebru"))
+MAKE_VDB = os.environ.get("EBRU_MAKE_VDB", str(ROOT / "build/release/tests/make_vdb"))
+COMPARE_EXR = os.environ.get("EBRU_COMPARE_EXR", str(ROOT / "build/release/tests/compare_exr"))
 EXEMPLAR = ROOT / "scenes/exemplars/checker.png"
 
 SHOT = """[shot]

@@ -2,11 +2,9 @@
 
 from support import *
 
-COMPARE = os.environ.get("EBRU_COMPARE", "compare_exr")
-
 
 def compare(reference, result, tolerances, expect, *parts):
-    run = subprocess.run([COMPARE, reference, result, tolerances], capture_output=True, text=True)
+    run = subprocess.run([COMPARE_EXR, reference, result, tolerances], capture_output=True, text=True)
     assert run.returncode == expect, f"ended with {run.returncode}, expected {expect}\n{run.stdout}{run.stderr}"
     for part in parts:
         assert part in run.stdout + run.stderr, f"expected to find {part!r} in\n{run.stdout}{run.stderr}"
