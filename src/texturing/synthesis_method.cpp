@@ -29,9 +29,16 @@ constexpr float trustedDistortion = 1.2f, distrustedDistortion = 1.6f;
 
 /// lambda_k: "a larger weight is given to the transported texture color at a point that has greater color gradient in its
 /// vicinity" [Kwatra 2007, sec. 5.2]; saturates at twice `transportStrength`. Negative where the transported texture is
-/// too distorted to be kept.
-std::vector<float> transportWeights(const TextureParticles& particles, const PointGraph& graph) {
+/// not to be kept: too distorted, only guessed, or run off the exemplar's edge.
+std::vector<float> transportWeights(const TextureParticles& particles, const std::vector<ParticleFate>& fates,
+                                    const Exemplar& exemplar, const PointGraph& graph) {
   const std::vector<Texel>& colour = particles.colour;
+  const auto trusted = [&](std::size_t i) {
+    const Vec2f& st = particles.st[i];
+    const bool inside = st.x() >= 0.0f && st.y() >= 0.0f && st.x() <= static_cast<float>(exemplar.width()) &&
+                        st.y() <= static_cast<float>(exemplar.height());
+    return inside && fates[i] != ParticleFate::orphan;
+  };
   std::vector<float> gradient(colour.size(), 0.0f);
   parallelFor(colour.size(), 1024, [&](std::size_t i) {
     const auto ring = graph.of(static_cast<std::uint32_t>(i));
@@ -46,9 +53,20 @@ std::vector<float> transportWeights(const TextureParticles& particles, const Poi
     const float trust = (distrustedDistortion - distortion(particles.jacobian[i])) /
                         (distrustedDistortion - trustedDistortion);
     const float lambda = 2.0f * transportStrength * gradient[i] / (gradient[i] + usual + 1e-6f);
-    gradient[i] = trust > 0.0f ? lambda * std::min(trust, 1.0f) : -1.0f;
+    gradient[i] = trust > 0.0f && trusted(i) ? lambda * std::min(trust, 1.0f) : -1.0f;
   });
   return gradient;
+}
+
+/// Orphans come with the box projection's unbounded coordinates: into the exemplar with them.
+void layOrphans(const std::vector<ParticleFate>& fates, const Exemplar& exemplar, TextureParticles& particles) {
+  const Vec2f period(static_cast<float>(exemplar.width()), static_cast<float>(exemplar.height()));
+  parallelFor(particles.size(), 4096, [&](std::size_t i) {
+    if (fates[i] != ParticleFate::orphan) return;
+    Vec2f& st = particles.st[i];
+    st -= (period.array() * (st.array() / period.array()).floor()).matrix();
+    particles.colour[i] = exemplar.sample(0, st);
+  });
 }
 
 PointGraph ringGraph(const OrientedPoints& points, float texelWorld) {
@@ -105,6 +123,8 @@ class SynthesisMethod : public TextureMethod {
     return {{std::span(p.position).first(count), std::span(p.normal).first(count), std::span(p.orientation).first(count)},
             {std::span(p.colour).first(count), std::span(p.st).first(count), std::span(p.jacobian).first(count)}};
   }
+  /// The first frame that has fluid; `particles` is empty but for the next id.
+  void synthesiseFrom(const FluidFrame& first, TextureParticles particles);
   void inheritFromCoarser(TextureParticles& particles, std::size_t coarse, std::size_t fine, int level) const;
   void synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest, int frame);
   void refit(TextureParticles& particles, const std::vector<ParticleFate>& fates);
@@ -123,9 +143,10 @@ class SynthesisMethod : public TextureMethod {
   std::shared_ptr<const TextureField> field_;
 };
 
-void SynthesisMethod::start(const FluidFrame& first) {
+void SynthesisMethod::start(const FluidFrame& first) { synthesiseFrom(first, {}); }
+
+void SynthesisMethod::synthesiseFrom(const FluidFrame& first, TextureParticles particles) {
   checkParticleCount(first, texelWorld_);
-  TextureParticles particles;
   const int levels = static_cast<int>(wide_.size());
   Hierarchy hierarchy;
   {
@@ -214,6 +235,7 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
 }
 
 void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
+  if (particles_->size() == 0) return synthesiseFrom(to, *particles_);
   checkParticleCount(to, texelWorld_);
   TextureParticles particles = *particles_;
   std::vector<ParticleFate> fates;
@@ -234,13 +256,13 @@ void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
 
 void SynthesisMethod::refit(TextureParticles& particles, const std::vector<ParticleFate>& fates) {
   std::vector<std::uint8_t> active(particles.size());
-  bool any = false;
-  for (std::size_t i = 0; i < active.size(); ++i) any |= (active[i] = fates[i] != ParticleFate::still);
-  if (!any) return;
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = fates[i] != ParticleFate::still;
+  if (std::find(active.begin(), active.end(), 1) == active.end()) return;
+  layOrphans(fates, *exemplar_, particles);
   LevelView view = firstPoints(particles, particles.size());
   const PointGraph graph = ringGraph(view.points, texelWorld_);
   const std::vector<Texel> colour(particles.colour);
-  const std::vector<float> weight = transportWeights(particles, graph);
+  const std::vector<float> weight = transportWeights(particles, fates, *exemplar_, graph);
   const TransportedTexture transported{colour, weight};
   // Windows of 34 texels first: only windows larger than a feature see that a stretched feature is not one of the
   // exemplar's.
@@ -251,7 +273,8 @@ void SynthesisMethod::refit(TextureParticles& particles, const std::vector<Parti
     WindowSet windows(view.points, graph, *search, *exemplar_, 0, texelWorld_, 0.25f, active, view.texture.jacobian);
     if (windows.size() == 0) return;
     windows.matchOwnCharts(view.texture, poorFit);
-    const std::vector<std::uint8_t> poor = windows.coveredByPoorWindow(poorFit);
+    std::vector<std::uint8_t> poor = windows.coveredByPoorWindow(poorFit);
+    for (std::size_t i = 0; i < poor.size(); ++i) poor[i] &= active[i];  // what is still stays as it is
     if (std::find(poor.begin(), poor.end(), 1) == poor.end()) continue;
     for (int i = 0; i < 2; ++i) {
       windows.matchNearest(view.texture, poorFit, i == 0);
