@@ -21,6 +21,8 @@ void catchInterrupts() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A limit on the size of files is an error of the write, with a message, like a full disk.
+  signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interruptRequested() { return requested; }

@@ -10,6 +10,7 @@ struct Interrupted : Error {
 };
 
 /// From now on the first SIGINT or SIGTERM is remembered instead of ending the process; a second one ends it at once.
+/// Files that reach a size limit fail to be written instead of ending the process.
 void catchInterrupts();
 
 /// Safe to call from any thread.
