@@ -16,8 +16,10 @@
 #include "fluid/analytic_frame.h"
 #include "io/image_file.h"
 #include "surface/orientation_field.h"
+#include "surface/poisson_sampling.h"
 #include "texturing/texture_method.h"
 #include "texturing/texture_particles.h"
+#include "zoo.h"
 
 namespace ebru::test {
 
@@ -113,6 +115,25 @@ inline std::vector<SurfacePoint> surfacePoints(const TriangleMesh& mesh) {
     points.push_back(p);
   }
   return points;
+}
+
+/// Texel size that gives about `wantedParticles` on the largest frame.
+inline float texelFor(const zoo::Fluid& fluid, double wantedParticles = 1200.0) {
+  double area = 0.0;
+  for (const auto& frame : fluid.frames) area = std::max(area, surfaceArea(frame->mesh));
+  const double spacing = std::sqrt(0.7 * area / wantedParticles);
+  return area > 0.0 ? static_cast<float>(spacing / 0.82) : 0.05f;
+}
+
+inline bool identical(const TextureSample& a, const TextureSample& b) {
+  return a.valid == b.valid && a.colour == b.colour && a.st == b.st && a.id == b.id && a.age == b.age &&
+         a.distortion == b.distortion && a.displacement == b.displacement && a.alpha == b.alpha;
+}
+
+inline std::vector<std::string> methodNames() {
+  std::vector<std::string> names;
+  for (const TextureMethodInfo& method : textureMethods()) names.push_back(method.name);
+  return names;
 }
 
 inline constexpr float slabVoxelWorld = 0.04f;
