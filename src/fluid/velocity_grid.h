@@ -43,11 +43,15 @@ class VelocityGrid : public VelocityField {
 };
 
 /// The solver's values in the fluid and at every cell the look-up on the surface reads; beyond, and where the
-/// solver wrote nothing within two cells of the surface, values extended layer by layer (each cell the mean
-/// of its known neighbours of 26) [Bridson 2015, ch. 4]. They reach max(speed)/fps + 3 cells off the surface,
-/// at most 32, so that a point carried for a frame still finds one. Deeper in the fluid a cell without a
-/// value is at rest. OpenVDB's sweeping extension is not used: it needs a value at every cell along the
-/// surface to start from.
+/// solver wrote nothing within two cells of the surface (a repair of the data), values extended layer by
+/// layer (each cell the mean of its known neighbours of 26) [Bridson 2015, ch. 4]. They reach max(speed)/fps
+/// + 3 cells off the surface, at most 32, so that a point carried for a frame still finds one. Deeper in the
+/// fluid a cell without a value is at rest.
+///
+/// Not openvdb::tools::FastSweeping, which makes the values beyond constant along the normal [Adalsteinsson &
+/// Sethian 1999]: swept from the same known cells over the same reach it is deterministic too, but loading
+/// dam_break's frames 12 and 28 takes 4.8 and 3.1 times the processor time, and points carried to the next
+/// frame land no nearer to its surface (mean 0.1765 and 0.3881 voxel instead of 0.1762 and 0.3880).
 /// @param surface  with its level set; not empty
 /// @throw InputError if the speed is implausible: over 4 times the diagonal of fluid and velocity per frame
 /// Deterministic for any number of threads.
