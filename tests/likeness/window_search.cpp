@@ -11,10 +11,10 @@
 namespace ebru::likeness {
 namespace {
 
-constexpr int angleCount = 36;
+constexpr int angleCount = 72;
 constexpr int tileSize = 8;        // coarse positions a side
-constexpr int refinedTiles = 24;   // to a texel and 4 degrees
-constexpr int finishedTiles = 6;   // to half a texel and 2 degrees
+constexpr int refinedTiles = 48;   // to a texel and 4 degrees
+constexpr int finishedTiles = 8;   // to half a texel and 2 degrees
 constexpr int maxRefineSteps = 16;
 constexpr float degree = std::numbers::pi_v<float> / 180.0f;
 constexpr float infinity = std::numeric_limits<float>::infinity();

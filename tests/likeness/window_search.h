@@ -10,7 +10,7 @@ namespace ebru::likeness {
 
 /// Finds the exemplar window nearest to a window of a picture, over all positions and angles.
 ///
-/// Coarse: blurred windows, every second sample, at every second texel and 36 angles. The best tiles are then refined on
+/// Coarse: blurred windows, every second sample, at every second texel and 72 angles. The best tiles are then refined on
 /// the unblurred samples to half a texel and 2 degrees. Const members are safe to call concurrently.
 class WindowSearch {
  public:
