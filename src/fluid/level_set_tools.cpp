@@ -1,6 +1,7 @@
 #include "fluid/level_set_tools.h"
 
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/FastSweeping.h>
 #include <openvdb/tools/LevelSetRebuild.h>
 #include <openvdb/tools/SignedFloodFill.h>
 #include <openvdb/tools/VolumeToMesh.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.h"
 
@@ -184,6 +186,56 @@ LevelSet finishLevelSet(const FloatGrid::Ptr& grid, float halfWidthVoxels, bool 
   return openvdb::tools::levelSetRebuild(*grid, 0.0f, halfWidthVoxels, halfWidthVoxels);
 }
 
+/// What fast sweeping starts from: the value of the known cell on the edge, between a known and an unknown
+/// cell, that a point lies on.
+class KnownCellOnEdge {
+ public:
+  KnownCellOnEdge(const FloatGrid& distance, const Vec3i& origin,
+                  const std::function<Vec3f(const Vec3i&)>& knownValue)
+      : distance_(distance.getConstAccessor()), origin_(origin), knownValue_(&knownValue) {}
+
+  openvdb::Vec3f operator()(const openvdb::Vec3d& p) const {
+    const Coord lower = Coord::floor(p);
+    const Coord known = distance_.getValue(lower) < 0.0f ? lower : Coord::ceil(p);
+    const Vec3f v = (*knownValue_)(origin_ + Vec3i(known.x(), known.y(), known.z()));
+    return openvdb::Vec3f(v.x(), v.y(), v.z());
+  }
+
+ private:
+  FloatGrid::ConstAccessor distance_;
+  Vec3i origin_;
+  const std::function<Vec3f(const Vec3i&)>* knownValue_;
+};
+
+Coord firstCell(const Vec3i& block) {
+  return Coord(8 * block.x(), 8 * block.y(), 8 * block.z());
+}
+
+/// Offset in OpenVDB's leaves, z fastest, of cell n of ours, x fastest.
+unsigned leafOffset(unsigned n) {
+  return (n & 7) << 6 | (n >> 3 & 7) << 3 | n >> 6;
+}
+
+/// Active where to be filled. Transform: one unit per cell, as fast sweeping takes a distance over 1000 units
+/// for unknown.
+FloatGrid::Ptr distanceToSweep(const std::vector<CellsToExtend>& blocks, const Vec3i& origin) {
+  constexpr float beyond = std::numeric_limits<float>::max();
+  const FloatGrid::Ptr grid = FloatGrid::create(beyond);
+  std::vector<Leaf*> leaves;
+  leaves.reserve(blocks.size());
+  for (const CellsToExtend& b : blocks) leaves.push_back(grid->tree().touchLeaf(firstCell(b.block - origin)));
+  parallelFor(blocks.size(), 16, [&](std::size_t i) {
+    for (unsigned n = 0; n < 512; ++n) {
+      const float d = blocks[i].distanceCells[n];
+      if (d > 0.0f && std::isfinite(d))
+        leaves[i]->setValueOn(leafOffset(n), d);
+      else
+        leaves[i]->setValueOff(leafOffset(n), std::min(d, beyond));
+    }
+  });
+  return grid;
+}
+
 }  // namespace
 
 SurfaceGeometry surfaceGeometry(const LevelSet& levelSet, PhaseTimes* times) {
@@ -273,6 +325,34 @@ LevelSet levelSetFromFunction(const std::function<float(const Vec3f&)>& distance
         }
   }
   return levelSetFromBlocks(distance, blocks, voxelSizeWorld, halfWidthVoxels, exactDistance);
+}
+
+void extendAlongNormals(const std::vector<CellsToExtend>& blocks,
+                        const std::function<Vec3f(const Vec3i&)>& knownValue) {
+  if (blocks.empty()) return;
+  // Fast sweeping places its points in single precision: count from the blocks' own corner.
+  Vec3i origin = blocks[0].block;
+  for (const CellsToExtend& b : blocks) origin = origin.cwiseMin(b.block);
+  const FloatGrid::Ptr distance = distanceToSweep(blocks, origin);
+  const openvdb::Vec3f nothing(std::numeric_limits<float>::quiet_NaN());
+  // Only cells to be filled are active, so sweeping all of them leaves the known ones alone. Not `sdfToExt`:
+  // it insists on active cells on both sides, to set the background of a distance that nobody asked for.
+  openvdb::tools::FastSweeping<FloatGrid, openvdb::Vec3f> sweeping;
+  const KnownCellOnEdge start(*distance, 8 * origin, knownValue);
+  if (sweeping.initExt(*distance, start, nothing, 0.0f, /*isInputSdf=*/true))
+    sweeping.sweep(1, /*finalize=*/false);
+  const openvdb::Vec3SGrid::ConstPtr extended = sweeping.extGrid();
+  parallelBlocks(blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
+    const openvdb::Vec3SGrid::ConstAccessor values = extended->getConstAccessor();
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto* leaf = values.probeConstLeaf(firstCell(blocks[i].block - origin));
+      for (unsigned n = 0; leaf && n < 512; ++n) {
+        if (!leaf->isValueOn(leafOffset(n))) continue;
+        const openvdb::Vec3f& v = leaf->getValue(leafOffset(n));
+        blocks[i].filled[n] = Vec3f(v.x(), v.y(), v.z());
+      }
+    }
+  });
 }
 
 std::size_t activeVoxelCount(const LevelSet& levelSet) {

@@ -61,6 +61,23 @@ LevelSet levelSetFromBlocks(const std::function<float(const Vec3f&)>& distance,
                             const std::vector<Vec3i>& blocks, float voxelSizeWorld, float halfWidthVoxels,
                             bool exactDistance);
 
+/// A block of 8^3 cells for `extendAlongNormals`: cells 8 * block + (x, y, z), index [z][y][x].
+struct CellsToExtend {
+  Vec3i block = Vec3i::Zero();
+  /// 512, in cells: roughly the distance from the border of the known cells, negative at them, positive at
+  /// those to be filled; infinite at those to be left alone. Never 0.
+  const float* distanceCells = nullptr;
+  Vec3f* filled = nullptr;  ///< 512: written at the cells to be filled; NaN where nothing reaches
+};
+
+/// Extends the values of the known cells over those beside them, constant along the normals of the distance
+/// [Adalsteinsson & Sethian 1999], by OpenVDB's fast sweeping [Zhao 2004].
+/// @param blocks  each once; cells in none of them are left alone
+/// @param knownValue  of a known cell, called concurrently
+/// Deterministic for any number of threads.
+void extendAlongNormals(const std::vector<CellsToExtend>& blocks,
+                        const std::function<Vec3f(const Vec3i&)>& knownValue);
+
 /// Number of active voxels. Null has none.
 std::size_t activeVoxelCount(const LevelSet& levelSet);
 

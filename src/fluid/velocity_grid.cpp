@@ -25,6 +25,8 @@ struct CellBlock {
   std::array<Vec3f, cellsPerBlock> value;
   std::array<Cell, cellsPerBlock> state;
   std::array<std::uint8_t, cellsPerBlock> required;  ///< read by look-ups in the fluid and on its surface
+  std::array<float, cellsPerBlock> distance;         ///< cells, signed, clamped to the band
+  std::array<std::uint8_t, cellsPerBlock> within;    ///< close enough to the surface to be extended to
   int unknownCount = 0;
 };
 
@@ -69,8 +71,9 @@ class Extension {
     addBlocks();
     requireStencils();
     parallelFor(blocks_.size(), 4, [&](std::size_t b) { readBlock(blocks_[b]); });
-    extend();
-    if (settleRest()) extend();
+    repair();
+    sweep();
+    if (settleRest()) sweep();
     return samples();
   }
 
@@ -125,7 +128,24 @@ class Extension {
     parallelFor(wanted.size(), 16, [&](std::size_t b) {
       blocks_[b].block = wanted[b];
       blocks_[b].required.fill(0);
+      blocks_[b].within.fill(0);
     });
+    for (const Box& box : boxes)
+      markWithin(box.lower - Vec3i::Constant(reach_), box.upper + Vec3i::Constant(reach_ + 1));
+  }
+
+  /// Marks the cells from `lower` to `upper`, inclusive; their blocks exist.
+  void markWithin(const Vec3i& lower, const Vec3i& upper) {
+    const Vec3i first = floorDiv8(lower), last = floorDiv8(upper);
+    for (int bz = first.z(); bz <= last.z(); ++bz)
+      for (int by = first.y(); by <= last.y(); ++by)
+        for (int bx = first.x(); bx <= last.x(); ++bx) {
+          CellBlock& b = blocks_[static_cast<std::size_t>(table_.at(Vec3i(bx, by, bz)))];
+          const Vec3i l = (lower - 8 * b.block).cwiseMax(0), u = (upper - 8 * b.block).cwiseMin(7);
+          for (int z = l.z(); z <= u.z(); ++z)
+            for (int y = l.y(); y <= u.y(); ++y)
+              for (int x = l.x(); x <= u.x(); ++x) b.within[cellIndex(x, y, z)] = 1;
+        }
   }
 
   /// Marks the cells that a look-up on the surface reads. A triangle is about a surface voxel wide, so what
@@ -146,7 +166,7 @@ class Extension {
   void readBlock(CellBlock& b) const {
     std::array<std::uint8_t, cellsPerBlock> written;
     std::array<Vec3f, cellsPerBlock> positions;
-    std::array<float, cellsPerBlock> distance;
+    std::array<float, cellsPerBlock>& distance = b.distance;
     raw_.read(b.block, b.value.data(), written.data());
     for (int n = 0; n < cellsPerBlock; ++n) {
       const Vec3i cell = 8 * b.block + Vec3i(n & 7, n >> 3 & 7, n >> 6);
@@ -162,6 +182,7 @@ class Extension {
       const bool deep = distance[n] < -layer;
       b.state[n] = deep || (b.required[n] && written[n]) ? Cell::known : Cell::unknown;
       b.unknownCount += b.state[n] == Cell::unknown;
+      b.distance[n] = (distance[n] - stencil) / raw_.voxelSizeWorld;
     }
   }
 
@@ -237,11 +258,40 @@ class Extension {
     for (int n = 0; n < cellsPerBlock; ++n) {
       const int x = n & 7, y = n >> 3 & 7, z = n >> 6;
       const int h = ((z + 1) * haloSide + y + 1) * haloSide + x + 1;
-      if (!known[h] && touched[h]) filled.push_back({n, meanAround(around, known, x, y, z)});
+      if (b.required[n] && !known[h] && touched[h]) filled.push_back({n, meanAround(around, known, x, y, z)});
     }
   }
 
-  void extend() {
+  /// Extends the known cells over the unknown ones beside them, constant along the normals of the distance.
+  void sweep() {
+    // Known cells lie on the inner side of the border that the sweep starts from, unknown ones on the outer.
+    constexpr float nearest = 0.1f;
+    std::vector<CellsToExtend> cells(blocks_.size());
+    parallelFor(blocks_.size(), 16, [&](std::size_t i) {
+      CellBlock& b = blocks_[i];
+      for (int n = 0; n < cellsPerBlock; ++n)
+        b.distance[n] = b.state[n] == Cell::known ? std::min(b.distance[n], -nearest)
+                        : b.within[n]             ? std::max(b.distance[n], nearest)
+                                                  : std::numeric_limits<float>::infinity();
+      cells[i] = {b.block, b.distance.data(), b.value.data()};
+    });
+    extendAlongNormals(cells, [&](const Vec3i& cell) {
+      return blocks_[static_cast<std::size_t>(table_.at(floorDiv8(cell)))]
+          .value[static_cast<std::size_t>(cellIndex(cell.x() & 7, cell.y() & 7, cell.z() & 7))];
+    });
+    parallelFor(blocks_.size(), 16, [&](std::size_t i) {
+      CellBlock& b = blocks_[i];
+      for (int n = 0; n < cellsPerBlock && b.unknownCount > 0; ++n) {
+        if (b.state[n] == Cell::known || !b.within[n] || std::isnan(b.value[n].x())) continue;
+        b.state[n] = Cell::known;
+        --b.unknownCount;
+      }
+    });
+  }
+
+  /// Gives the unwritten cells that look-ups on the surface read the mean of the known ones around them, layer by
+  /// layer: what the solver left out at the surface is a fault of the data, not a place to extend to.
+  void repair() {
     std::vector<std::vector<Filled>> filled(blocks_.size());
     for (int round = 0; round < reach_; ++round) {
       parallelFor(blocks_.size(), 4, [&](std::size_t b) {

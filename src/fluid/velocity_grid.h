@@ -42,16 +42,11 @@ class VelocityGrid : public VelocityField {
   SampledGrid<3> samples_;
 };
 
-/// The solver's values in the fluid and at every cell the look-up on the surface reads; beyond, and where the
-/// solver wrote nothing within two cells of the surface (a repair of the data), values extended layer by
-/// layer (each cell the mean of its known neighbours of 26) [Bridson 2015, ch. 4]. They reach max(speed)/fps
-/// + 3 cells off the surface, at most 32, so that a point carried for a frame still finds one. Deeper in the
-/// fluid a cell without a value is at rest.
-///
-/// Not openvdb::tools::FastSweeping, which makes the values beyond constant along the normal [Adalsteinsson &
-/// Sethian 1999]: swept from the same known cells over the same reach it is deterministic too, but loading
-/// dam_break's frames 12 and 28 takes 4.8 and 3.1 times the processor time, and points carried to the next
-/// frame land no nearer to its surface (mean 0.1765 and 0.3881 voxel instead of 0.1762 and 0.3880).
+/// The solver's values in the fluid and at every cell the look-up on the surface reads; where the solver left such a cell
+/// out, the mean of its known neighbours, layer by layer (a repair of the data, within two cells of the surface). From
+/// these they are extended constant along the normal [Adalsteinsson & Sethian 1999], by OpenVDB's fast sweeping, max(speed)
+/// / fps + 3 cells off the surface, at most 32, so that a point carried for a frame still finds one. Deeper in the fluid a
+/// cell without a value is at rest.
 /// @param surface  with its level set; not empty
 /// @throw InputError if the speed is implausible: over 4 times the diagonal of fluid and velocity per frame
 /// Deterministic for any number of threads.
