@@ -49,6 +49,9 @@ OptionFields fields(RenderOptions& o) {
           "filter_width_px", &o.filter_width_px, "px",
           "Full width of the Blackman-Harris pixel filter of the lit picture; 0 samples pixel centres only.",
           0.0, 8.0),
+      field("animate_seed", &o.animate_seed, "",
+            "New sampling noise in every frame; else the noise stands still, and so does the picture of what stands "
+            "still."),
       field("background", &o.background, "",
             "Show the environment behind everything, with alpha 1; else the background is empty, with alpha "
             "0."),

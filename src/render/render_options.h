@@ -27,6 +27,7 @@ struct RenderOptions {
   int spp = 16;
   double filter_width_px = 2.0;
   bool background = false;
+  bool animate_seed = false;
   std::array<double, 3> fluid_colour{0.18, 0.32, 0.38};
   double specular = 0.4;
   double roughness = 0.3;

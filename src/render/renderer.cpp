@@ -35,6 +35,7 @@ struct Shading {
   const MotionVectors& motion;
   const PixelFilter& filter;
   std::uint64_t seed;
+  std::uint64_t noiseFrame;  ///< the same in all frames unless the noise is animated
   int spp;
 };
 
@@ -42,7 +43,7 @@ struct Shading {
 float shadeBeauty(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer& buffer) {
   // With more samples each stands for less of the pixel, so its texture may be sharper.
   const float footprintScale = std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(s.spp)));
-  PixelSampler sampler(s.seed, static_cast<std::uint64_t>(s.fluid.frame), pixel);
+  PixelSampler sampler(s.seed, s.noiseFrame, pixel);
   Vec3f radiance = Vec3f::Zero();
   float alpha = 0.0f;
   for (int i = 0; i < s.spp; ++i) {
@@ -154,8 +155,10 @@ ChannelImage Renderer::render(const RenderInput& input) const {
       makeDirectLightIntegrator({*scene, materials, impl_->lights, impl_->options.render.background});
   const MotionVectors motion(impl_->camera, input.previous, fluid, input.next);
   FrameBuffer buffer(impl_->camera.width(), impl_->camera.height());
-  shadeTiles({impl_->camera, fluid, *scene, materials, *integrator, motion, impl_->filter, impl_->seed,
-              impl_->options.render.spp},
+  const RenderOptions& options = impl_->options.render;
+  const auto noiseFrame = options.animate_seed ? static_cast<std::uint64_t>(fluid.frame) : 0;
+  shadeTiles({impl_->camera, fluid, *scene, materials, *integrator, motion, impl_->filter, impl_->seed, noiseFrame,
+              options.spp},
              buffer);
   ChannelImage image = buffer.take();
   impl_->addAttributes(fluid, image);
