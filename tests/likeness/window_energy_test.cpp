@@ -34,7 +34,7 @@ WindowEnergy measure(const ChannelImage& picture) {
   return windowEnergy(picture, pebbles(), view.texelSizeWorld, options);
 }
 
-// The bounds hold for other exemplars too; this one, smooth within a stone, has a low floor and gives 4 to 6.
+// The bounds hold for other exemplars too; this one, smooth within a stone, has a low floor and gives 5 to 8.
 
 TEST(WindowEnergy, OfTheExemplarItselfIsTheFloor) {
   const WindowEnergy e = measure(exemplarPicture(view, pebbles(), 0.4f, Vec2f(3.3f, -7.8f)));
