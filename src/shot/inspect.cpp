@@ -98,7 +98,7 @@ std::string inspect(const InspectOptions& options) {
   std::string text = inspected.introduction;
   for (const int frame : inspected.frames) text += sequence->describe(frame);
   const int next = std::min(inspected.last + 1, sequence->lastFrame());
-  const VelocityCheck check = checkVelocity(*sequence, inspected.first, next);
+  const VelocityCheck check = checkVelocity(*sequence, inspected.first, next, 8);
   return text + describe(check) + "\n";
 }
 
