@@ -13,6 +13,8 @@ namespace {
 
 constexpr double farthestVoxels = 3.0;
 constexpr double stillVoxels = 0.5;
+constexpr double movingShare = 0.05;  ///< of a surface's points, for its pair to say something
+constexpr std::size_t pointsPerPair = 20000, coarsePoints = 2000;
 constexpr double tolerance = 0.1;
 constexpr double largestScale = 64.0;
 
@@ -28,59 +30,83 @@ double pointResidual(const FramePair& pair, const Vec3f& p, double s) {
   return std::min<double>(std::abs(distance[0]) / pair.to->voxelSizeWorld, farthestVoxels);
 }
 
-/// The mean of that over every so many vertices.
-double residual(const std::vector<FramePair>& pairs, double s, std::size_t pointsPerPair) {
+/// Points of a frame's surface, and the pair they are judged by.
+struct JudgedPoints {
+  const FramePair* pair;
+  std::vector<Vec3f> positions;
+};
+
+/// Every so many vertices.
+JudgedPoints spreadPoints(const FramePair& pair) {
+  const std::vector<Vec3f>& all = pair.from->mesh.positions;
+  JudgedPoints points{&pair, {}};
+  for (std::size_t i = 0; i < all.size(); i += std::max<std::size_t>(1, all.size() / pointsPerPair))
+    points.positions.push_back(all[i]);
+  return points;
+}
+
+/// Of these, the ones that the next surface has moved away from: where it slides within itself, every s fits.
+JudgedPoints movingPoints(const JudgedPoints& points) {
+  std::vector<std::uint8_t> moves(points.positions.size());
+  parallelFor(moves.size(), 512,
+              [&](std::size_t i) { moves[i] = pointResidual(*points.pair, points.positions[i], 0.0) >= stillVoxels; });
+  JudgedPoints moving{points.pair, {}};
+  for (std::size_t i = 0; i < moves.size(); ++i)
+    if (moves[i]) moving.positions.push_back(points.positions[i]);
+  return moving;
+}
+
+/// The mean of the points' residuals.
+double residual(const std::vector<JudgedPoints>& sets, double s, std::size_t pointsPerSet) {
   double sum = 0.0, count = 0.0;
-  for (const FramePair& pair : pairs) {
-    const std::vector<Vec3f>& positions = pair.from->mesh.positions;
-    const std::size_t stride = std::max<std::size_t>(1, positions.size() / pointsPerPair);
-    const std::size_t points = (positions.size() + stride - 1) / stride;
-    sum += parallelSum(points, [&](std::size_t i) { return pointResidual(pair, positions[i * stride], s); });
+  for (const JudgedPoints& set : sets) {
+    const std::size_t stride = std::max<std::size_t>(1, set.positions.size() / pointsPerSet);
+    const std::size_t points = (set.positions.size() + stride - 1) / stride;
+    sum += parallelSum(points, [&](std::size_t i) { return pointResidual(*set.pair, set.positions[i * stride], s); });
     count += static_cast<double>(points);
   }
   return count > 0.0 ? sum / count : 0.0;
 }
 
 /// Golden-section search; the residual has one valley between neighbours of the coarse search.
-double refine(const std::vector<FramePair>& pairs, double lower, double upper) {
+double refine(const std::vector<JudgedPoints>& points, double lower, double upper) {
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   double a = lower, b = upper;
   double x = b - golden * (b - a), y = a + golden * (b - a);
-  double fx = residual(pairs, x, 20000), fy = residual(pairs, y, 20000);
+  double fx = residual(points, x, pointsPerPair), fy = residual(points, y, pointsPerPair);
   for (int step = 0; step < 16; ++step) {
     if (fx <= fy) {
       b = y;
       y = x;
       fy = fx;
       x = b - golden * (b - a);
-      fx = residual(pairs, x, 20000);
+      fx = residual(points, x, pointsPerPair);
     } else {
       a = x;
       x = y;
       fx = fy;
       y = a + golden * (b - a);
-      fy = residual(pairs, y, 20000);
+      fy = residual(points, y, pointsPerPair);
     }
   }
   return 0.5 * (a + b);
 }
 
-double bestScale(const std::vector<FramePair>& pairs) {
+double bestScale(const std::vector<JudgedPoints>& points) {
   constexpr double ratio = 1.15;
-  constexpr std::size_t coarsePoints = 2000;
   double best = 1.0;
-  double bestResidual = residual(pairs, best, coarsePoints);
+  double bestResidual = residual(points, best, coarsePoints);
   // From 1 outwards, so that of equal ones the most likely wins.
   for (double size = ratio; size <= largestScale; size *= ratio)
     for (double s : {size, 1.0 / size, -size, -1.0 / size}) {
-      const double r = residual(pairs, s, coarsePoints);
+      const double r = residual(points, s, coarsePoints);
       if (r < bestResidual) {
         bestResidual = r;
         best = s;
       }
     }
-  if (residual(pairs, -1.0, coarsePoints) < bestResidual) best = -1.0;
-  return refine(pairs, std::min(best / ratio, best * ratio), std::max(best / ratio, best * ratio));
+  if (residual(points, -1.0, coarsePoints) < bestResidual) best = -1.0;
+  return refine(points, std::min(best / ratio, best * ratio), std::max(best / ratio, best * ratio));
 }
 
 std::string cause(const VelocityCheck& check) {
@@ -96,23 +122,26 @@ std::string cause(const VelocityCheck& check) {
 
 VelocityCheck checkVelocity(const std::vector<FramePair>& allPairs) {
   VelocityCheck check;
-  std::vector<FramePair> pairs, moving;
-  for (const FramePair& pair : allPairs)
-    if (!pair.from->mesh.empty() && !pair.to->mesh.empty()) pairs.push_back(pair);
-  for (const FramePair& pair : pairs)
-    if (residual({pair}, 0.0, 20000) >= stillVoxels) moving.push_back(pair);
-  const std::vector<FramePair>& used = moving.empty() ? pairs : moving;
+  std::vector<JudgedPoints> all, moving;
+  for (const FramePair& pair : allPairs) {
+    if (pair.from->mesh.empty() || pair.to->mesh.empty()) continue;
+    all.push_back(spreadPoints(pair));
+    JudgedPoints points = movingPoints(all.back());
+    if (static_cast<double>(points.positions.size()) >= movingShare * static_cast<double>(all.back().positions.size()))
+      moving.push_back(std::move(points));
+  }
+  const std::vector<JudgedPoints>& used = moving.empty() ? all : moving;
   check.pairs = static_cast<int>(used.size());
   if (used.empty()) return check;
-  check.firstFrame = used.front().from->frame;
-  check.lastFrame = used.back().to->frame;
-  check.framesPerSecond = used.front().from->framesPerSecond;
-  check.residualAtZeroVoxels = residual(used, 0.0, 20000);
-  check.residualAtOneVoxels = residual(used, 1.0, 20000);
+  check.firstFrame = used.front().pair->from->frame;
+  check.lastFrame = used.back().pair->to->frame;
+  check.framesPerSecond = used.front().pair->from->framesPerSecond;
+  check.residualAtZeroVoxels = residual(used, 0.0, pointsPerPair);
+  check.residualAtOneVoxels = residual(used, 1.0, pointsPerPair);
   check.residualVoxels = check.residualAtOneVoxels;
   if (moving.empty()) return check;
   check.scale = bestScale(used);
-  check.residualVoxels = residual(used, check.scale, 20000);
+  check.residualVoxels = residual(used, check.scale, pointsPerPair);
   if (check.residualVoxels > 0.75 * check.residualAtZeroVoxels)
     check.verdict = VelocityCheck::Verdict::unexplained;
   else if (std::abs(check.scale - 1.0) > tolerance)

@@ -21,8 +21,7 @@ struct VelocityCheck {
     agrees,        ///< |s - 1| <= 0.1
     disagrees,     ///< another s moves the surface better
     unexplained,   ///< no s brings the residual below three quarters of that at 0
-    undetermined,  ///< the surface moves too little, or slides within itself: the residual at 0 is under half
-                   ///< a voxel
+    undetermined,  ///< the surface moves too little, or slides within itself
   };
   Verdict verdict = Verdict::undetermined;
   double scale = 1.0;           ///< s, the factor on the velocity that fits best; 1 when undetermined
@@ -34,9 +33,10 @@ struct VelocityCheck {
   double framesPerSecond = 24.0;
 };
 
-/// Fits one s for all pairs with a residual at 0 of at least half a voxel; with none of those it is
-/// undetermined and the residuals are those of all pairs. Carries up to 20 000 vertices per pair by Heun's
-/// method through s v, linear in time between the frames, and measures with the next frame's signed distance,
+/// Fits one s to the points of the pairs' surfaces that the next surface has moved away from by at least half a voxel
+/// (where a surface slides within itself every s fits). Pairs in which those are under 5 % of the points are left out; with
+/// no pair left it is undetermined and the residuals are those of all points. Carries up to 20 000 vertices per pair by
+/// Heun's method through s v, linear in time between the frames, and measures with the next frame's signed distance,
 /// which knows 3 voxels: farther counts as 3. s is searched among +-[1/64, 64]. Empty frames are left out.
 /// Deterministic for any number of threads; safe to call concurrently.
 VelocityCheck checkVelocity(const std::vector<FramePair>& pairs);
