@@ -17,9 +17,9 @@ SCENE = ROOT / "scenes/dam_break.toml"
 PEBBLES = ROOT / "scenes/exemplars/pebbles.png"
 SIDE_PX = 256
 PIXEL_TEXELS = 0.8
-# Measured: 3.8, from seams between pieces. 1 would be the exemplar itself; blurred by 1.5 texels it has 5.2, stretched by
-# 1.6 7.4, three blended layers 8.5 (tests/likeness/window_energy_test.cpp).
-RATIO_BOUND = 4.4
+# Nearer to the exemplar than the exemplar blurred by 1.5 texels, which has 5.2; stretched by 1.6 it has 7.4, three blended
+# layers 8.5 (tests/likeness/window_energy_test.cpp). Seams between pieces keep synthesis from 1.
+RATIO_BOUND = 5.0
 
 
 def likeness(folder, method, frame, x):
