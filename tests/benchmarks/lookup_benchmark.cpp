@@ -42,7 +42,8 @@ void ExemplarSample(benchmark::State& state) {
 }
 
 /// Windows that lie in the exemplar nowhere: halfway between two of its own.
-/// @param state  range(0): 9 or 17 texels; range(1): with a bound of a quarter of the usual distance, as coherent search has it
+/// @param state  range(0): 9 or 17 texels; range(1): with a bound of a quarter of the usual distance, as
+/// coherent search has it
 void WindowSearch(benchmark::State& state) {
   const NeighbourhoodSearch search(*exemplar(), 0, static_cast<int>(state.range(0)));
   std::vector<NeighbourhoodSearch::Descriptor> queries;

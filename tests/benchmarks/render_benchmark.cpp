@@ -23,9 +23,11 @@ void picture(benchmark::State& state, int spp, const TextureField* texture) {
   state.SetItemsProcessed(state.iterations() * options.camera.size[0] * options.camera.size[1]);
 }
 
-/// One sample a pixel of the plain fluid, without lights: the ray through the pixel's centre, the data channels, and the
-/// building of Embree's hierarchy.
-void PrimaryRays(benchmark::State& state) { picture(state, 1, nullptr); }
+/// One sample a pixel of the plain fluid, without lights: the ray through the pixel's centre, the data
+/// channels, and the building of Embree's hierarchy.
+void PrimaryRays(benchmark::State& state) {
+  picture(state, 1, nullptr);
+}
 
 void PrimaryRaysTextured(benchmark::State& state) {
   const auto texture = field("synthesis");

@@ -15,7 +15,9 @@
 namespace ebru::bench {
 namespace {
 
-std::filesystem::path scenes() { return std::filesystem::path(__FILE__).parent_path() / "../../scenes"; }
+std::filesystem::path scenes() {
+  return std::filesystem::path(__FILE__).parent_path() / "../../scenes";
+}
 
 std::shared_ptr<const FluidFrame> load(int frame) {
   FluidOptions options;
@@ -23,7 +25,9 @@ std::shared_ptr<const FluidFrame> load(int frame) {
   return openFluidSequence(options, 24.0)->load(frame);
 }
 
-std::string exemplarPath() { return (scenes() / "exemplars/pebbles.png").string(); }
+std::string exemplarPath() {
+  return (scenes() / "exemplars/pebbles.png").string();
+}
 
 /// VmRSS or VmHWM, bytes.
 double memory(const std::string& key) {
@@ -91,8 +95,8 @@ const std::vector<SurfacePoint>& points() {
       if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
       p.barycentric = {u, v};
       const auto at = [&](const std::vector<Vec3f>& values) -> Vec3f {
-        return (1.0f - u - v) * values[static_cast<std::size_t>(t[0])] + u * values[static_cast<std::size_t>(t[1])] +
-               v * values[static_cast<std::size_t>(t[2])];
+        return (1.0f - u - v) * values[static_cast<std::size_t>(t[0])] +
+               u * values[static_cast<std::size_t>(t[1])] + v * values[static_cast<std::size_t>(t[2])];
       };
       p.position = at(mesh.positions);
       p.normal = at(mesh.normals).normalized();
@@ -104,7 +108,9 @@ const std::vector<SurfacePoint>& points() {
 }
 
 double stateBytes(const TextureParticles& p) {
-  const auto bytes = [](const auto& values) { return static_cast<double>(values.size() * sizeof(values[0])); };
+  const auto bytes = [](const auto& values) {
+    return static_cast<double>(values.size() * sizeof(values[0]));
+  };
   return (bytes(p.position) + bytes(p.normal) + bytes(p.orientation) + bytes(p.st) + bytes(p.jacobian) +
           bytes(p.colour) + bytes(p.age) + bytes(p.id)) /
          std::max<double>(1.0, static_cast<double>(p.size()));
@@ -128,7 +134,8 @@ void Meter::pause() {
 }
 
 void Meter::report(benchmark::State& state, double particleCount) const {
-  const double per100k = 1e5 / (particleCount * static_cast<double>(std::max<std::int64_t>(1, state.iterations())));
+  const double per100k =
+      1e5 / (particleCount * static_cast<double>(std::max<std::int64_t>(1, state.iterations())));
   state.counters["s_per_100k"] = wall_ * per100k;
   state.counters["cpu_s_per_100k"] = cpu_ * per100k;
   state.counters["particles"] = particleCount;

@@ -35,7 +35,8 @@ const std::vector<SurfacePoint>& points();
 /// Bytes of all arrays of one particle.
 double stateBytes(const TextureParticles& particles);
 
-/// Seconds of wall and of all threads' CPU, and the growth of the process's peak memory, from its construction on.
+/// Seconds of wall and of all threads' CPU, and the growth of the process's peak memory, from its
+/// construction on.
 class Meter {
  public:
   Meter();

@@ -23,7 +23,8 @@ Exemplar exemplarOf(int width, int height, const TexelFunction& f) {
 
 /// a + b u + c v at a place, u and v in texels from the image's corner.
 Texel ramp(float u, float v) {
-  return Texel(0.1f, 0.9f, 0.5f, 0.0f) + Texel(0.01f, -0.005f, 0.0f, 0.02f) * u + Texel(0.0f, 0.004f, -0.01f, 0.01f) * v;
+  return Texel(0.1f, 0.9f, 0.5f, 0.0f) + Texel(0.01f, -0.005f, 0.0f, 0.02f) * u +
+         Texel(0.0f, 0.004f, -0.01f, 0.01f) * v;
 }
 
 Texel noise(int x, int y) {
@@ -32,9 +33,12 @@ Texel noise(int x, int y) {
   return Texel(r, g, b, random.uniform());
 }
 
-float difference(const Texel& a, const Texel& b) { return (a - b).abs().maxCoeff(); }
+float difference(const Texel& a, const Texel& b) {
+  return (a - b).abs().maxCoeff();
+}
 
-// The centre of texel (x, y) is at (x + 0.5, y + 0.5), where one of the four weights is 1 and the others are 0.
+// The centre of texel (x, y) is at (x + 0.5, y + 0.5), where one of the four weights is 1 and the others are
+// 0.
 TEST(Exemplar, ATexelsCentreIsTheTexel) {
   const Exemplar e = exemplarOf(40, 30, noise);
   for (int y = 0; y < 30; ++y)
@@ -47,9 +51,8 @@ TEST(Exemplar, ATexelsCentreIsTheTexel) {
 
 // Catmull-Rom's weights sum to 1 and reproduce t; that needs four real texels per axis.
 TEST(Exemplar, ReproducesALinearRamp) {
-  const Exemplar e = exemplarOf(40, 30, [](int x, int y) {
-    return ramp(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-  });
+  const Exemplar e = exemplarOf(
+      40, 30, [](int x, int y) { return ramp(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); });
   for (int i = 0; i < 300; ++i) {
     Random random(2, 0, static_cast<std::uint64_t>(i));
     const float u = 1.5f + 37.0f * random.uniform(), v = 1.5f + 27.0f * random.uniform();
@@ -74,9 +77,14 @@ TEST(Exemplar, GradientsAreThoseOfFiniteDifferences) {
       Texel du, dv;
       const Texel value = e.sample(level, uv, du, dv);
       EXPECT_LT(difference(value, e.sample(level, uv)), 1e-6f);
-      // Second derivatives reach 10 per texel^2 and jump at texel centres: h times that is the error to expect.
-      EXPECT_LT(difference(du, (e.sample(level, uv + Vec2f(h, 0)) - e.sample(level, uv - Vec2f(h, 0))) / (2 * h)), 0.1f);
-      EXPECT_LT(difference(dv, (e.sample(level, uv + Vec2f(0, h)) - e.sample(level, uv - Vec2f(0, h))) / (2 * h)), 0.1f);
+      // Second derivatives reach 10 per texel^2 and jump at texel centres: h times that is the error to
+      // expect.
+      EXPECT_LT(
+          difference(du, (e.sample(level, uv + Vec2f(h, 0)) - e.sample(level, uv - Vec2f(h, 0))) / (2 * h)),
+          0.1f);
+      EXPECT_LT(
+          difference(dv, (e.sample(level, uv + Vec2f(0, h)) - e.sample(level, uv - Vec2f(0, h))) / (2 * h)),
+          0.1f);
     }
   }
 }
@@ -91,7 +99,8 @@ TEST(Exemplar, ClampsToItsBorder) {
   EXPECT_LT(difference(du, Texel::Zero()), 1e-6f);
 }
 
-// Halved, rounded down, while the smaller side keeps 24 texels: 100 x 70 -> 50 x 35 -> (25 x 17 is too small).
+// Halved, rounded down, while the smaller side keeps 24 texels: 100 x 70 -> 50 x 35 -> (25 x 17 is too
+// small).
 TEST(Exemplar, PyramidSizes) {
   const auto sizes = [](int w, int h) {
     const Exemplar e = exemplarOf(w, h, noise);
@@ -114,12 +123,11 @@ TEST(Exemplar, PyramidKeepsAConstant) {
   EXPECT_LT(e.contrast(), 1e-4f);
 }
 
-// The filter is symmetric about the centre of each 2 x 2 block, so that a place has one coordinate on all levels: uv on
-// level 0 is uv / 2 on level 1.
+// The filter is symmetric about the centre of each 2 x 2 block, so that a place has one coordinate on all
+// levels: uv on level 0 is uv / 2 on level 1.
 TEST(Exemplar, LevelsAreAligned) {
-  const Exemplar e = exemplarOf(64, 64, [](int x, int y) {
-    return ramp(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-  });
+  const Exemplar e = exemplarOf(
+      64, 64, [](int x, int y) { return ramp(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); });
   for (int y = 3; y < 29; ++y)
     for (int x = 3; x < 29; ++x) {
       const Vec2f uv(static_cast<float>(x) + 0.25f, static_cast<float>(y) + 0.6f);
@@ -136,7 +144,8 @@ TEST(Exemplar, ContrastIsTheStandardDeviation) {
   EXPECT_NEAR(e.contrast(), 0.5f, 1e-5f);
 }
 
-// IEC 61966-2-1: 0.5 encoded is ((0.5 + 0.055) / 1.055)^2.4 = 0.21404 linear; below 0.04045 the curve is v / 12.92.
+// IEC 61966-2-1: 0.5 encoded is ((0.5 + 0.055) / 1.055)^2.4 = 0.21404 linear; below 0.04045 the curve is v
+// / 12.92.
 TEST(Encoding, IsTheSrgbCurve) {
   const Vec3f half = linearColour(Texel(0.5f, 1.0f, 0.0f, 0.3f));
   EXPECT_NEAR(half.x(), 0.21404f, 1e-5f);
@@ -171,7 +180,8 @@ class ExemplarFile : public ::testing::Test {
     for (const char* channel : {"R", "G", "B"}) image.add(channel, ChannelType::float32);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const Vec3f linear = linearColour(Texel(static_cast<float>(x) / 255.0f, static_cast<float>(y) / 255.0f, 0, 0));
+        const Vec3f linear =
+            linearColour(Texel(static_cast<float>(x) / 255.0f, static_cast<float>(y) / 255.0f, 0, 0));
         for (std::size_t c = 0; c < 3; ++c)
           image.channels[c].data[static_cast<std::size_t>(y * width + x)] = linear[static_cast<int>(c)];
       }
@@ -190,7 +200,9 @@ class ExemplarFile : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 // 8-bit files hold encoded values: they come back as they are.
 TEST_F(ExemplarFile, TexelsAreTheFilesEncodedValues) {
@@ -224,7 +236,8 @@ TEST_F(ExemplarFile, TooSmallNamesFileAndSizes) {
 TEST_F(ExemplarFile, HeightOfAnotherSizeNamesBoth) {
   const std::filesystem::path colour = write("colour.png", 40, 30), height = write("height.png", 30, 40);
   const std::string message = inputError([&] { Exemplar(colour, height); });
-  for (const std::string& part : {colour.string(), height.string(), std::string("40 x 30"), std::string("30 x 40")})
+  for (const std::string& part :
+       {colour.string(), height.string(), std::string("40 x 30"), std::string("30 x 40")})
     EXPECT_TRUE(contains(message, part)) << message;
 }
 

@@ -12,7 +12,9 @@ namespace {
 constexpr float texelWorld = 0.1f;
 constexpr float spacing = 0.82f * texelWorld;
 
-Mat2f rotation(float angle) { return Eigen::Rotation2Df(angle).toRotationMatrix(); }
+Mat2f rotation(float angle) {
+  return Eigen::Rotation2Df(angle).toRotationMatrix();
+}
 
 struct Surface {
   std::vector<Vec3f> positions, normals, orientations;
@@ -48,8 +50,8 @@ std::uint32_t nearestTo(const Surface& s, const Vec3f& p) {
   return best;
 }
 
-/// On a plane a displacement is the plane's coordinate in the centre's frame, turned by `axes`; the turn of a point
-/// takes its own frame to the same axes.
+/// On a plane a displacement is the plane's coordinate in the centre's frame, turned by `axes`; the turn of a
+/// point takes its own frame to the same axes.
 void expectPlaneCoordinates(const Surface& s, std::uint32_t centre, const Mat2f& axes, float window) {
   const std::vector<NeighbourhoodPoint> found = s.build(centre, axes, window);
   ASSERT_EQ(found[0].index, centre);
@@ -86,13 +88,14 @@ TEST(Neighbourhood, TurnUndoesARandomOrientationField) {
   for (std::uint32_t k = 0; k < 8; ++k) {
     Random random(1, 0, k);
     const Vec3f p = 0.5f * test::randomVector(random);
-    expectPlaneCoordinates(s, nearestTo(s, Vec3f(p.x(), p.y(), 0.0f)), rotation(static_cast<float>(k)), 17.0f);
+    expectPlaneCoordinates(s, nearestTo(s, Vec3f(p.x(), p.y(), 0.0f)), rotation(static_cast<float>(k)),
+                           17.0f);
   }
 }
 
-// A cylinder is developable: its neighbourhoods are those of the unrolled sheet. At a radius of R = 12 texels a step of
-// up to 1.6 texels turns by a = 0.13 rad; its direction is measured with sin a / a = 1 - a^2/6 = 0.997: over half a
-// window of 8.5 texels that adds up to 0.03 texels at most.
+// A cylinder is developable: its neighbourhoods are those of the unrolled sheet. At a radius of R = 12 texels
+// a step of up to 1.6 texels turns by a = 0.13 rad; its direction is measured with sin a / a = 1 - a^2/6 =
+// 0.997: over half a window of 8.5 texels that adds up to 0.03 texels at most.
 TEST(Neighbourhood, OnACylinderItIsTheUnrolledSheet) {
   constexpr float radius = 12.0f * texelWorld;
   Surface s = sampled(test::plane(5.0f, 50));

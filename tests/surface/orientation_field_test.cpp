@@ -114,7 +114,8 @@ TEST(DiffuseOrientation, StaysUnitAndTangentOnASphereAndGetsSmoother) {
   const auto roughness = [&](const std::vector<Vec3f>& o) {
     double sum = 0.0;
     for (std::uint32_t i = 0; i < s.size(); ++i)
-      for (std::uint32_t j : graph.of(i)) sum += 1.0 - transportTangent(o[j], s.normals[j], s.normals[i]).dot(o[i]);
+      for (std::uint32_t j : graph.of(i))
+        sum += 1.0 - transportTangent(o[j], s.normals[j], s.normals[i]).dot(o[i]);
     return sum / static_cast<double>(graph.neighbours.size());
   };
   std::vector<Vec3f> o = test::randomTangents(s.normals, 3);

@@ -45,7 +45,8 @@ TEST(PointGraph, IsWhatBruteForceFinds) {
   }
 }
 
-// Within a radius that no ring fills, j is near i exactly when i is near j. Among the 10 nearest most links are mutual.
+// Within a radius that no ring fills, j is near i exactly when i is near j. Among the 10 nearest most links
+// are mutual.
 TEST(PointGraph, LinksGoBothWays) {
   const SurfaceSamples s = sampledSheet(4.0f);
   const PointGraph all = buildPointGraph(s.positions, s.normals, 1.9f, 32);

@@ -66,7 +66,8 @@ TEST(PointIndex, TiesGoToTheLowerIndex) {
   std::vector<Vec3f> positions;
   for (int copy = 0; copy < 2; ++copy)
     for (int i = 0; i < 6 * 6 * 6; ++i)
-      positions.emplace_back(static_cast<float>(i % 6), static_cast<float>(i / 6 % 6), static_cast<float>(i / 36));
+      positions.emplace_back(static_cast<float>(i % 6), static_cast<float>(i / 6 % 6),
+                             static_cast<float>(i / 36));
   const std::vector<Vec3f> normals(positions.size(), Vec3f::UnitZ());
   const PointIndex index(positions, normals);
   for (const std::size_t limit : {1u, 3u, 8u, 11u, 16u, 40u})

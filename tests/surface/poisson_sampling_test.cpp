@@ -13,7 +13,8 @@ namespace {
 
 float distanceToNearest(const PointIndex& index, const Vec3f& p, const Vec3f& normal) {
   PointIndex::Neighbour nearest;
-  if (index.nearest(p, normal, 0.0f, 1e18f, {&nearest, 1}) == 0) return std::numeric_limits<float>::infinity();
+  if (index.nearest(p, normal, 0.0f, 1e18f, {&nearest, 1}) == 0)
+    return std::numeric_limits<float>::infinity();
   return std::sqrt(nearest.distanceSquared);
 }
 
@@ -32,7 +33,9 @@ bool identical(const SurfaceSamples& a, const SurfaceSamples& b) {
   return a.positions == b.positions && a.normals == b.normals;
 }
 
-TEST(SurfaceArea, OfAPlane) { EXPECT_NEAR(surfaceArea(test::plane(3.0f, 7)), 9.0, 1e-4); }
+TEST(SurfaceArea, OfAPlane) {
+  EXPECT_NEAR(surfaceArea(test::plane(3.0f, 7)), 9.0, 1e-4);
+}
 
 // Triangles a third of the spacing and eight times as large as it: their size must not show.
 TEST(PoissonSampling, KeepsItsDistanceAndLeavesNoGap) {

@@ -15,30 +15,19 @@
 namespace ebru {
 namespace {
 
-struct Case {
-  std::string method;
-  std::string animal;
-  std::function<zoo::Fluid()> make;
-};
-
-std::vector<Case> cases() {
-  const std::vector<std::pair<std::string, std::function<zoo::Fluid()>>> animals = {
-      {"closed", zoo::closed},       {"still", zoo::still},         {"thinSheet", zoo::thinSheet},
-      {"merging", zoo::merging},     {"splitting", zoo::splitting}, {"vanishing", zoo::vanishing},
-      {"appearing", zoo::appearing}, {"empty", zoo::empty}};
-  std::vector<Case> result;
-  for (const TextureMethodInfo& method : textureMethods())
-    for (const auto& [name, make] : animals) result.push_back({method.name, name, make});
-  return result;
-}
-
-class EveryMethod : public ::testing::TestWithParam<Case> {
+class EveryMethod : public ::testing::TestWithParam<std::string> {
  protected:
-  void SetUp() override {
-    fluid_ = GetParam().make();
-    options_.method = GetParam().method;
-    options_.texel_size = test::texelFor(fluid_);
-    options_.exemplar = test::writeExemplar(folder_ / "discs.png", 48, test::discs).string();
+  /// Calls check() for each animal of the zoo, which is then `fluid_`.
+  template <class Check>
+  void onEveryAnimal(const test::TexelFunction& exemplar, const Check& check) {
+    options_.method = GetParam();
+    options_.exemplar = test::writeExemplar(folder_ / "exemplar.png", 48, exemplar).string();
+    for (const zoo::Fluid& animal : zoo::all()) {
+      SCOPED_TRACE(animal.name);
+      fluid_ = animal;
+      options_.texel_size = test::texelFor(fluid_);
+      check();
+    }
   }
   std::unique_ptr<TextureMethod> method() const { return makeTextureMethod(options_, 7, nullptr); }
   std::string state(const TextureMethod& m) const { return test::stateOf(m, folder_ / "state"); }
@@ -73,104 +62,114 @@ class EveryMethod : public ::testing::TestWithParam<Case> {
 };
 
 TEST_P(EveryMethod, CoversEveryPointWithFiniteValues) {
-  run([&](const TextureMethod& m, std::size_t k) {
-    SCOPED_TRACE("frame " + std::to_string(frames()[k]->frame));
-    ASSERT_NE(m.field(), nullptr);
-    int holes = 0, wrong = 0;
-    for (const SurfacePoint& p : test::surfacePoints(frames()[k]->mesh)) {
-      const TextureSample s = m.field()->lookup(p);
-      holes += !s.valid;
-      wrong += !(s.colour.allFinite() && s.colour.minCoeff() > -0.1f && s.colour.maxCoeff() < 1.3f);
-      wrong += !(s.st.minCoeff() >= 0.0f && s.st.maxCoeff() <= 1.0f && s.alpha == 1.0f);
-      wrong += !(s.age >= 0.0f && s.age <= static_cast<float>(k) && s.distortion >= 0.999f && s.id >= 0.0f);
-    }
-    EXPECT_EQ(holes, 0);
-    EXPECT_EQ(wrong, 0);
+  onEveryAnimal(test::discs, [&] {
+    run([&](const TextureMethod& m, std::size_t k) {
+      SCOPED_TRACE("frame " + std::to_string(frames()[k]->frame));
+      ASSERT_NE(m.field(), nullptr);
+      int holes = 0, wrong = 0;
+      for (const SurfacePoint& p : test::surfacePoints(frames()[k]->mesh)) {
+        const TextureSample s = m.field()->lookup(p);
+        holes += !s.valid;
+        wrong += !(s.colour.allFinite() && s.colour.minCoeff() > -0.1f && s.colour.maxCoeff() < 1.3f);
+        wrong += !(s.st.minCoeff() >= 0.0f && s.st.maxCoeff() <= 1.0f && s.alpha == 1.0f);
+        wrong += !(s.age >= 0.0f && s.age <= static_cast<float>(k) && s.distortion >= 0.999f && s.id >= 0.0f);
+      }
+      EXPECT_EQ(holes, 0);
+      EXPECT_EQ(wrong, 0);
+    });
   });
 }
 
 // Both methods so far keep texture particles as their state.
 TEST_P(EveryMethod, ParticlesHaveUnitFramesAndStableIds) {
-  std::map<std::uint32_t, Vec3f> before;
-  std::uint32_t nextId = 0;
-  run([&](const TextureMethod& m, std::size_t k) {
-    SCOPED_TRACE("frame " + std::to_string(frames()[k]->frame));
-    const TextureParticles p = particlesOf(m);
-    if (frames()[k]->mesh.empty())
-      EXPECT_EQ(p.size(), 0u);
-    else
-      EXPECT_GT(p.size(), 100u);
-    EXPECT_LT(p.size(), 3000u);
-    const std::optional<Flow> flow = k ? std::optional<Flow>(Flow(frames()[k - 1].get(), frames()[k].get())) : std::nullopt;
-    std::map<std::uint32_t, Vec3f> now;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      ASSERT_NEAR(p.normal[i].norm(), 1.0f, 1e-4f);
-      ASSERT_NEAR(p.orientation[i].norm(), 1.0f, 1e-4f);
-      ASSERT_NEAR(p.orientation[i].dot(p.normal[i]), 0.0f, 2e-3f);
-      ASSERT_TRUE(p.st[i].allFinite() && p.jacobian[i].allFinite() && p.colour[i].isFinite().all());
-      ASSERT_GT(p.jacobian[i].determinant(), 0.0f) << "folded";
-      ASSERT_TRUE(now.emplace(p.id[i], p.position[i]).second) << "two particles with one id";
-      ASSERT_LT(p.id[i], p.nextId);
-      const auto old = before.find(p.id[i]);
-      if (old == before.end()) {
-        ASSERT_GE(p.id[i], nextId) << "an id that was free once has come back";
-      } else {
-        ++kept;
-        ASSERT_LT((flow->forward(old->second) - p.position[i]).norm(), 2.0f * zoo::voxelSizeWorld);
+  onEveryAnimal(test::discs, [&] {
+    std::map<std::uint32_t, Vec3f> before;
+    std::uint32_t nextId = 0;
+    run([&](const TextureMethod& m, std::size_t k) {
+      SCOPED_TRACE("frame " + std::to_string(frames()[k]->frame));
+      const TextureParticles p = particlesOf(m);
+      if (frames()[k]->mesh.empty())
+        EXPECT_EQ(p.size(), 0u);
+      else
+        EXPECT_GT(p.size(), 100u);
+      EXPECT_LT(p.size(), 3000u);
+      const std::optional<Flow> flow =
+          k ? std::optional<Flow>(Flow(frames()[k - 1].get(), frames()[k].get())) : std::nullopt;
+      std::map<std::uint32_t, Vec3f> now;
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        ASSERT_NEAR(p.normal[i].norm(), 1.0f, 1e-4f);
+        ASSERT_NEAR(p.orientation[i].norm(), 1.0f, 1e-4f);
+        ASSERT_NEAR(p.orientation[i].dot(p.normal[i]), 0.0f, 2e-3f);
+        ASSERT_TRUE(p.st[i].allFinite() && p.jacobian[i].allFinite() && p.colour[i].isFinite().all());
+        ASSERT_GT(p.jacobian[i].determinant(), 0.0f) << "folded";
+        ASSERT_TRUE(now.emplace(p.id[i], p.position[i]).second) << "two particles with one id";
+        ASSERT_LT(p.id[i], p.nextId);
+        const auto old = before.find(p.id[i]);
+        if (old == before.end()) {
+          ASSERT_GE(p.id[i], nextId) << "an id that was free once has come back";
+        } else {
+          ++kept;
+          ASSERT_LT((flow->forward(old->second) - p.position[i]).norm(), 2.0f * zoo::voxelSizeWorld);
+        }
       }
-    }
-    // What two frames share moves by a fraction of a voxel to a voxel in the zoo: most particles stay with it.
-    const bool shared = !before.empty() && !p.position.empty() && GetParam().animal != "vanishing";
-    EXPECT_TRUE(!shared || kept > before.size() * 3 / 4) << kept << " of " << before.size();
-    before = now;
-    nextId = p.nextId;
+      // What two frames share moves by a fraction of a voxel to a voxel in the zoo: most particles stay with
+      // it.
+      const bool shared = !before.empty() && !p.position.empty() && fluid_.name != "vanishing";
+      EXPECT_TRUE(!shared || kept > before.size() * 3 / 4) << kept << " of " << before.size();
+      before = now;
+      nextId = p.nextId;
+    });
   });
 }
 
 TEST_P(EveryMethod, DoesNotDependOnThreads) {
-  std::vector<std::string> one;
-  {
-    const ThreadLimit limit(1);
-    one = states();
-  }
-  const ThreadLimit limit(2);
-  const std::vector<std::string> two = states();
-  for (std::size_t k = 0; k < one.size(); ++k) EXPECT_TRUE(one[k] == two[k]) << "frame " << k;
+  onEveryAnimal(test::discs, [&] {
+    std::vector<std::string> one;
+    {
+      const ThreadLimit limit(1);
+      one = states();
+    }
+    const ThreadLimit limit(2);
+    const std::vector<std::string> two = states();
+    for (std::size_t k = 0; k < one.size(); ++k) EXPECT_TRUE(one[k] == two[k]) << "frame " << k;
+  });
 }
 
 // A run that is cut after any frame and goes on from its state ends in the same bits, and looks the same.
 TEST_P(EveryMethod, GoesOnFromASavedState) {
-  const std::unique_ptr<TextureMethod> straight = method(), resumed = method();
-  straight->start(*frames()[0]);
-  for (std::size_t k = 1; k < frames().size(); ++k) {
-    test::stateOf(*straight, folder_ / "cut");
-    resumed->load(StateReader(folder_ / "cut", "test"));
-    for (const SurfacePoint& p : test::surfacePoints(frames()[k - 1]->mesh)) {
-      const TextureSample a = straight->field()->lookup(p), b = resumed->field()->lookup(p);
-      ASSERT_TRUE(a.colour == b.colour && a.st == b.st && a.id == b.id);
+  onEveryAnimal(test::discs, [&] {
+    const std::unique_ptr<TextureMethod> straight = method(), resumed = method();
+    straight->start(*frames()[0]);
+    for (std::size_t k = 1; k < frames().size(); ++k) {
+      test::stateOf(*straight, folder_ / "cut");
+      resumed->load(StateReader(folder_ / "cut", "test"));
+      for (const SurfacePoint& p : test::surfacePoints(frames()[k - 1]->mesh)) {
+        const TextureSample a = straight->field()->lookup(p), b = resumed->field()->lookup(p);
+        ASSERT_TRUE(a.colour == b.colour && a.st == b.st && a.id == b.id);
+      }
+      straight->advance(*frames()[k - 1], *frames()[k]);
+      resumed->advance(*frames()[k - 1], *frames()[k]);
+      ASSERT_TRUE(state(*straight) == state(*resumed)) << "frame " << k;
     }
-    straight->advance(*frames()[k - 1], *frames()[k]);
-    resumed->advance(*frames()[k - 1], *frames()[k]);
-    ASSERT_TRUE(state(*straight) == state(*resumed)) << "frame " << k;
-  }
+  });
 }
 
 // An exemplar of one colour: whatever is blended, moved or searched, it is that colour.
 TEST_P(EveryMethod, ConstantExemplarIsThatConstant) {
-  options_.exemplar = test::writeExemplar(folder_ / "constant.png", 48, test::constantTexel).string();
-  const Vec3f expected = linearColour(Exemplar(options_.exemplar, {}).texel(0, 5, 5));
-  run([&](const TextureMethod& m, std::size_t k) {
-    float largest = 0.0f;
-    for (const SurfacePoint& p : test::surfacePoints(frames()[k]->mesh))
-      largest = std::max(largest, (m.field()->lookup(p).colour - expected).cwiseAbs().maxCoeff());
-    EXPECT_LT(largest, 1e-3f);
+  onEveryAnimal(test::constantTexel, [&] {
+    const Vec3f expected = linearColour(Exemplar(options_.exemplar, {}).texel(0, 5, 5));
+    run([&](const TextureMethod& m, std::size_t k) {
+      float largest = 0.0f;
+      for (const SurfacePoint& p : test::surfacePoints(frames()[k]->mesh))
+        largest = std::max(largest, (m.field()->lookup(p).colour - expected).cwiseAbs().maxCoeff());
+      EXPECT_LT(largest, 1e-3f);
+    });
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Zoo, EveryMethod, ::testing::ValuesIn(cases()), [](const auto& info) {
-  return info.param.method + "_" + info.param.animal;
-});
+INSTANTIATE_TEST_SUITE_P(Zoo, EveryMethod, ::testing::ValuesIn(test::methodNames()),
+                         [](const auto& info) { return info.param; });
 
 class OnOneAnimal : public ::testing::TestWithParam<std::string> {
  protected:
@@ -195,7 +194,8 @@ TEST_P(OnOneAnimal, AHeldFieldDoesNotChange) {
   const std::vector<SurfacePoint> points = test::surfacePoints(fluid.frames[0]->mesh);
   for (const SurfacePoint& p : points) samples.push_back(first->lookup(p));
   m->advance(*fluid.frames[0], *fluid.frames[1]);
-  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_TRUE(test::identical(first->lookup(points[i]), samples[i]));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ASSERT_TRUE(test::identical(first->lookup(points[i]), samples[i]));
 }
 
 // Upper and lower side of a sheet of two texels slide in opposite directions: no particle is seen on both.
@@ -206,7 +206,8 @@ TEST_P(OnOneAnimal, NothingBleedsThroughAThinSheet) {
     if (k) m->advance(*fluid.frames[k - 1], *fluid.frames[k]);
     std::set<float> above, below;
     for (const SurfacePoint& p : test::surfacePoints(fluid.frames[k]->mesh))
-      if (std::abs(p.normal.z()) > 0.99f) (p.normal.z() > 0.0f ? above : below).insert(m->field()->lookup(p).id);
+      if (std::abs(p.normal.z()) > 0.99f)
+        (p.normal.z() > 0.0f ? above : below).insert(m->field()->lookup(p).id);
     EXPECT_GT(above.size(), 200u);
     EXPECT_GT(below.size(), 200u);
     std::vector<float> both;

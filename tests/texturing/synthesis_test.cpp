@@ -22,7 +22,8 @@ Window exemplarWindow(const std::vector<Texel>& texels, int x, int y) {
   Window window;
   for (int j = 0; j < side; ++j)
     for (int i = 0; i < side; ++i)
-      window[static_cast<std::size_t>(side * j + i)] = texels[static_cast<std::size_t>(exemplarSize * (y + j) + x + i)];
+      window[static_cast<std::size_t>(side * j + i)] =
+          texels[static_cast<std::size_t>(exemplarSize * (y + j) + x + i)];
   return window;
 }
 
@@ -48,7 +49,8 @@ double distanceToExemplar(const std::vector<Texel>& texels, const std::vector<Wi
   return std::sqrt(sum / static_cast<double>(windows.size() * side * side * 3));
 }
 
-/// Windows of the texture on the slab's top, one texel apart, in the frames of the particles at their centres.
+/// Windows of the texture on the slab's top, one texel apart, in the frames of the particles at their
+/// centres.
 std::vector<Window> windowsOfTop(const TextureMethod& method, const test::Folder& folder, float texelWorld) {
   test::stateOf(method, folder / "state");
   TextureParticles particles;
@@ -77,8 +79,8 @@ std::vector<Window> windowsOfTop(const TextureMethod& method, const test::Folder
   return windows;
 }
 
-// Compared with windows of the exemplar's own texels in random order, which have its colours and nothing else of it; an exact
-// piece of exemplar between them gives nearly zero.
+// Compared with windows of the exemplar's own texels in random order, which have its colours and nothing else
+// of it; an exact piece of exemplar between them gives nearly zero.
 TEST(Synthesis, FirstFrameIsMadeOfTheExemplarsWindows) {
   const test::Folder folder;
   TextureOptions options;

@@ -14,7 +14,9 @@
 namespace ebru {
 namespace {
 
-Mat2f rotation(float angle) { return Eigen::Rotation2Df(angle).toRotationMatrix(); }
+Mat2f rotation(float angle) {
+  return Eigen::Rotation2Df(angle).toRotationMatrix();
+}
 
 Mat2f matrix(float a, float b, float c, float d) {
   Mat2f m;
@@ -36,7 +38,8 @@ TEST(Distortion, OfKnownSingularValues) {
 // Simple shear by k: singular values k/2 +- sqrt(1 + k^2/4), each the other's inverse.
 TEST(Distortion, OfSimpleShear) {
   for (const float k : {0.1f, 1.0f, 3.0f})
-    EXPECT_NEAR(distortion(matrix(1, k, 0, 1)), 0.5f * k + std::sqrt(1.0f + 0.25f * k * k), 1e-4f * (1.0f + k));
+    EXPECT_NEAR(distortion(matrix(1, k, 0, 1)), 0.5f * k + std::sqrt(1.0f + 0.25f * k * k),
+                1e-4f * (1.0f + k));
 }
 
 TEST(Distortion, OfACollapsedTextureIsFinite) {
@@ -65,8 +68,8 @@ TEST(LocalTexels, AreTheFramesCoordinates) {
   }
 }
 
-// On an axis-aligned face the box projection is an isometry that is not mirrored (a rotation in an image-like frame),
-// and its Jacobian is the derivative of its coordinate.
+// On an axis-aligned face the box projection is an isometry that is not mirrored (a rotation in an image-like
+// frame), and its Jacobian is the derivative of its coordinate.
 TEST(BoxProjection, IsIsometricOnFaces) {
   constexpr float texel = 0.1f;
   for (int face = 0; face < 6; ++face) {
@@ -141,7 +144,8 @@ TEST(ParticleCount, TooManySaysHowManyAndWhatWouldDo) {
   const auto frame = zoo::still().frames[0];
   constexpr float texel = 1e-8f;
   const double spacing = 0.82 * static_cast<double>(texel);
-  const std::string count = fmt::format("{:.3g} particles", 0.7 * surfaceArea(frame->mesh) / (spacing * spacing));
+  const std::string count =
+      fmt::format("{:.3g} particles", 0.7 * surfaceArea(frame->mesh) / (spacing * spacing));
   std::string message;
   try {
     checkParticleCount(*frame, texel);

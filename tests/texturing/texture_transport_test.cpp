@@ -17,7 +17,9 @@ using test::slab;
 
 constexpr float texel = 0.05f;
 
-Exemplar discsExemplar() { return Exemplar(64, 64, test::texelsOf(64, test::discs)); }
+Exemplar discsExemplar() {
+  return Exemplar(64, 64, test::texelsOf(64, test::discs));
+}
 
 /// Velocity M p per frame. @param steps  frames to go; the slab's top stays where it is
 TextureParticles carryLinear(const Mat3f& perFrame, int steps) {
@@ -26,7 +28,8 @@ TextureParticles carryLinear(const Mat3f& perFrame, int steps) {
   const auto from = slab(1, velocity), to = slab(2, velocity);
   for (int i = 0; i < steps; ++i) {
     const std::size_t before = particles.size();
-    for (ParticleFate fate : carryParticles(*from, *to, texel, particles)) EXPECT_EQ(fate, ParticleFate::carried);
+    for (ParticleFate fate : carryParticles(*from, *to, texel, particles))
+      EXPECT_EQ(fate, ParticleFate::carried);
     EXPECT_EQ(particles.size(), before) << "none may leave the top";
   }
   return particles;
@@ -75,8 +78,8 @@ TEST(CarryParticles, TranslationMovesAndNothingElse) {
   }
 }
 
-// Kwatra's eq. 4 (fig. 4): head and tail are carried, so that the orientation turns with the fluid, by w per frame; in the
-// carried frame nothing is deformed and J stays.
+// Kwatra's eq. 4 (fig. 4): head and tail are carried, so that the orientation turns with the fluid, by w per
+// frame; in the carried frame nothing is deformed and J stays.
 TEST(CarryParticles, RigidRotationTurnsTheFrameAndKeepsJ) {
   constexpr float w = 0.05f;
   constexpr int frames = 4;
@@ -148,8 +151,8 @@ TEST(CarryParticles, ExpansionHasItsSingularValues) {
   }
 }
 
-// Charts of particles that carry one texture agree: a place shows the same exemplar point through any of them, before and
-// after any linear flow (st is affine in the position then).
+// Charts of particles that carry one texture agree: a place shows the same exemplar point through any of
+// them, before and after any linear flow (st is affine in the position then).
 TEST(CarryParticles, NeighbouringChartsStillAgree) {
   const TextureParticles p = carryLinear(linear(0.05f, 0.12f, -0.03f, -0.04f), 3);
   const std::size_t side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(p.size()))));
@@ -181,7 +184,8 @@ FluidFrame flatFrame() {
   constexpr int cells = 30;
   for (int y = 0; y <= cells; ++y)
     for (int x = 0; x <= cells; ++x) {
-      frame.mesh.positions.emplace_back(0.1f * static_cast<float>(x) - 1.5f, 0.1f * static_cast<float>(y) - 1.5f, 0.0f);
+      frame.mesh.positions.emplace_back(0.1f * static_cast<float>(x) - 1.5f,
+                                        0.1f * static_cast<float>(y) - 1.5f, 0.0f);
       frame.mesh.normals.push_back(Vec3f::UnitZ());
     }
   for (int y = 0; y < cells; ++y)
@@ -196,8 +200,8 @@ FluidFrame flatFrame() {
 
 constexpr float flatTexel = 0.1f;
 
-/// A hexagonal lattice over the square: nearest neighbours one pitch apart, no place farther than pitch / sqrt(3) from a
-/// point. One affine chart.
+/// A hexagonal lattice over the square: nearest neighbours one pitch apart, no place farther than pitch /
+/// sqrt(3) from a point. One affine chart.
 TextureParticles hexagons(float pitchTexels) {
   const float pitch = pitchTexels * flatTexel;
   TextureParticles p;
@@ -225,8 +229,8 @@ std::vector<ParticleFate> settle(TextureParticles& particles, const Exemplar& ex
   return fates;
 }
 
-// Removed below 0.6 texel, inserted where the nearest is over 0.95 texel away: between 0.6 and 0.95 sqrt(3) = 1.645 texels a
-// hexagonal lattice is left alone.
+// Removed below 0.6 texel, inserted where the nearest is over 0.95 texel away: between 0.6 and 0.95 sqrt(3)
+// = 1.645 texels a hexagonal lattice is left alone.
 TEST(KeepSpacing, HasHysteresis) {
   const Exemplar exemplar = discsExemplar();
   for (const float pitch : {0.61f, 0.82f, 1.2f, 1.64f}) {
@@ -236,7 +240,8 @@ TEST(KeepSpacing, HasHysteresis) {
     const std::vector<ParticleFate> fates = settle(particles, exemplar);
     EXPECT_EQ(particles.size(), before);
     EXPECT_EQ(particles.nextId, before);
-    EXPECT_EQ(std::count(fates.begin(), fates.end(), ParticleFate::carried), static_cast<std::ptrdiff_t>(before));
+    EXPECT_EQ(std::count(fates.begin(), fates.end(), ParticleFate::carried),
+              static_cast<std::ptrdiff_t>(before));
   }
 }
 
@@ -259,7 +264,8 @@ TEST(KeepSpacing, DoesNotTouchStillParticles) {
   EXPECT_EQ(particles.size(), before);
 }
 
-// With one affine chart everywhere, the nearest one extended is that chart, and its colour the exemplar's there.
+// With one affine chart everywhere, the nearest one extended is that chart, and its colour the exemplar's
+// there.
 TEST(KeepSpacing, FillsGapsWithTheNearestChart) {
   const Exemplar exemplar = discsExemplar();
   TextureParticles particles = hexagons(1.8f);
@@ -287,7 +293,8 @@ TEST(KeepSpacing, ASettledSetStaysAsItIs) {
   const test::Folder folder;
   const Exemplar exemplar = discsExemplar();
   TextureParticles particles;
-  for (ParticleFate fate : settle(particles, exemplar)) EXPECT_EQ(fate, ParticleFate::orphan) << "the first ones";
+  for (ParticleFate fate : settle(particles, exemplar))
+    EXPECT_EQ(fate, ParticleFate::orphan) << "the first ones";
   ASSERT_GT(particles.size(), 500u);
   settle(particles, exemplar);  // what the first round left open
   const std::string bytes = test::stateOf(particles, folder / "a");

@@ -48,7 +48,9 @@ class Folder {
 
 using TexelFunction = std::function<Texel(int, int)>;
 
-inline Texel constantTexel(int, int) { return {0.6f, 0.4f, 0.2f, 0.0f}; }
+inline Texel constantTexel(int, int) {
+  return {0.6f, 0.4f, 0.2f, 0.0f};
+}
 
 /// Dark discs in a skew lattice of 16 texels on a ground of slow colour: structure that noise does not have.
 inline Texel discs(int x, int y) {
@@ -67,7 +69,8 @@ inline std::vector<Texel> texelsOf(int size, const TexelFunction& f) {
   return texels;
 }
 
-inline std::filesystem::path writeExemplar(const std::filesystem::path& path, int size, const TexelFunction& f) {
+inline std::filesystem::path writeExemplar(const std::filesystem::path& path, int size,
+                                           const TexelFunction& f) {
   ChannelImage image;
   image.width = image.height = size;
   for (const char* channel : {"R", "G", "B"}) image.add(channel, ChannelType::float32);
@@ -161,8 +164,8 @@ inline std::shared_ptr<const FluidFrame> slab(int frame, const std::function<Vec
   return makeFluidFrame(fluid);
 }
 
-/// A raster of particles on the slab's top, none of them at the origin, with undistorted charts: st = (x, -y) in texels,
-/// frames turned differently.
+/// A raster of particles on the slab's top, none of them at the origin, with undistorted charts: st = (x, -y)
+/// in texels, frames turned differently.
 inline TextureParticles particlesOnTop(float texelWorld, float halfWorld = 0.4f) {
   TextureParticles particles;
   const int reach = static_cast<int>(halfWorld / texelWorld);
@@ -176,7 +179,8 @@ inline TextureParticles particlesOnTop(float texelWorld, float halfWorld = 0.4f)
       particles.orientation[i] = Vec3f(std::cos(angle), std::sin(angle), 0.0f);
       particles.st[i] = Vec2f(at.x(), -at.y()) + Vec2f::Constant(32.0f);
       const Vec3f second = secondAxis(particles.normal[i], particles.orientation[i]);
-      particles.jacobian[i] << particles.orientation[i].x(), second.x(), -particles.orientation[i].y(), -second.y();
+      particles.jacobian[i] << particles.orientation[i].x(), second.x(), -particles.orientation[i].y(),
+          -second.y();
       particles.colour[i] = Texel(0.1f, 0.2f, 0.3f, 0.0f);
     }
   return particles;

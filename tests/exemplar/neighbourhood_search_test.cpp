@@ -1,0 +1,139 @@
+#include "exemplar/neighbourhood_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/random.h"
+
+namespace ebru {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Smooth noise: waves of 6 to 25 texels in random directions, different in every channel, with no two places
+/// alike.
+Exemplar waves(int width, int height) {
+  std::vector<Texel> texels;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Texel sum = Texel::Constant(0.5f);
+      for (std::uint64_t k = 0; k < 24; ++k) {
+        Random random(4, 0, k);
+        const float angle = 6.2831853f * random.uniform(), frequency = 0.25f + 0.75f * random.uniform();
+        const float phase = 6.2831853f * random.uniform();
+        const float value = std::cos(
+            frequency * (std::cos(angle) * static_cast<float>(x) + std::sin(angle) * static_cast<float>(y)) +
+            phase);
+        sum[static_cast<Eigen::Index>(k % 4)] += 0.08f * value;
+      }
+      texels.push_back(sum);
+    }
+  return Exemplar(width, height, std::move(texels));
+}
+
+/// The raster of a window at a place. Pixels of a wide window are means of 2 x 2 positions.
+NeighbourhoodSearch::Window windowAt(const Exemplar& e, const NeighbourhoodSearch& search, const Vec2f& uv) {
+  NeighbourhoodSearch::Window window;
+  const float spacing = search.pixelSpacing();
+  for (int j = 0; j < NeighbourhoodSearch::raster; ++j)
+    for (int i = 0; i < NeighbourhoodSearch::raster; ++i) {
+      const Vec2f p = uv + spacing * Vec2f(static_cast<float>(i - 4), static_cast<float>(j - 4));
+      Texel& pixel = window[static_cast<std::size_t>(j * NeighbourhoodSearch::raster + i)];
+      pixel = Texel::Zero();
+      for (const float dx : {-0.25f, 0.25f})
+        for (const float dy : {-0.25f, 0.25f}) {
+          const float reach = search.window() == 17 ? 2.0f : 0.0f;
+          pixel += 0.25f * e.sample(search.level(), p + reach * Vec2f(dx, dy));
+        }
+    }
+  return window;
+}
+
+Vec2f centreOf(const Vec2i& texel) {
+  return texel.cast<float>() + Vec2f::Constant(0.5f);
+}
+
+class Search : public ::testing::TestWithParam<int> {
+ protected:
+  Search() : exemplar(waves(72, 60)), search(exemplar, 0, GetParam()), half(GetParam() / 2) {}
+  Vec2i randomTexel(std::uint64_t id) const {
+    Random random(9, 0, id);
+    const auto x = random.below(static_cast<std::uint32_t>(72 - 2 * half));
+    return {half + static_cast<int>(x),
+            half + static_cast<int>(random.below(static_cast<std::uint32_t>(60 - 2 * half)))};
+  }
+  const Exemplar exemplar;
+  const NeighbourhoodSearch search;
+  const int half;
+};
+
+TEST_P(Search, SaysWhatItComparesAndHow) {
+  EXPECT_EQ(search.window(), GetParam());
+  EXPECT_EQ(search.level(), 0);
+  // 9 pixels span the window: 8 spacings from the first texel's centre to the last one's.
+  EXPECT_EQ(8.0f * search.pixelSpacing(), static_cast<float>(GetParam() - 1));
+  const auto& w = search.weights();
+  EXPECT_NEAR(std::accumulate(w.begin(), w.end(), 0.0), 1.0, 1e-5);
+  EXPECT_EQ(std::max_element(w.begin(), w.end()) - w.begin(), NeighbourhoodSearch::pixels / 2);
+  EXPECT_NEAR(w[0], w[NeighbourhoodSearch::pixels - 1], 1e-7f);
+  EXPECT_GT(w[0], 0.0f);
+}
+
+NeighbourhoodSearch::Match nearestAnywhere(const NeighbourhoodSearch& search,
+                                           const NeighbourhoodSearch::Descriptor& query) {
+  return search.nearest(query, {{0, 0}, infinity});
+}
+
+TEST_P(Search, NothingFartherThanTheBound) {
+  const Vec2i texel = randomTexel(3);
+  const NeighbourhoodSearch::Descriptor query =
+      search.describe(windowAt(exemplar, search, centreOf(texel) + Vec2f(0.3f, 0.2f)));
+  const NeighbourhoodSearch::Match best = nearestAnywhere(search, query);
+  ASSERT_GT(best.distanceSquared, 0.0f);
+  const NeighbourhoodSearch::Match bound{{-5, -6}, 0.2f * best.distanceSquared};
+  const NeighbourhoodSearch::Match none = search.nearest(query, bound);
+  EXPECT_EQ(none.texel, bound.texel) << "the bound itself";
+  EXPECT_EQ(none.distanceSquared, bound.distanceSquared);
+  for (const float factor : {1.01f, 2.0f, 50.0f})
+    EXPECT_LE(search.nearest(query, {{0, 0}, factor * best.distanceSquared}).distanceSquared,
+              factor * best.distanceSquared);
+}
+
+TEST_P(Search, AtMovesAWindowInsideFirst) {
+  const NeighbourhoodSearch::Descriptor query =
+      search.describe(windowAt(exemplar, search, centreOf(randomTexel(8))));
+  const NeighbourhoodSearch::Match corner = search.at({half, 59 - half}, query);
+  for (const Vec2i& outside : {Vec2i(-40, 1000), Vec2i(half - 1, 59), Vec2i(0, 60 - half)}) {
+    const NeighbourhoodSearch::Match match = search.at(outside, query);
+    EXPECT_EQ(match.texel, Vec2i(half, 59 - half));
+    EXPECT_EQ(match.distanceSquared, corner.distanceSquared);
+  }
+}
+
+// A window of 2 half + 1 texels around a texel's centre fits when the centre is half + 0.5 from the border.
+TEST_P(Search, ClampInsideMovesACentreAsLittleAsNeeded) {
+  const float margin = static_cast<float>(half) + 0.5f;
+  EXPECT_EQ(search.clampInside({36.0f, 30.0f}), Vec2f(36.0f, 30.0f));
+  EXPECT_EQ(search.clampInside({-3.0f, 30.0f}), Vec2f(margin, 30.0f));
+  EXPECT_EQ(search.clampInside({1e9f, 1e9f}), Vec2f(72.0f - margin, 60.0f - margin));
+  EXPECT_EQ(search.clampInside({margin, 60.0f - margin}), Vec2f(margin, 60.0f - margin));
+}
+
+TEST_P(Search, WorksOnAConstantExemplar) {
+  const Exemplar constant(24, 24, std::vector<Texel>(24 * 24, Texel(0.2f, 0.4f, 0.6f, 0.0f)));
+  const NeighbourhoodSearch flat(constant, 0, GetParam());
+  NeighbourhoodSearch::Window window;
+  window.fill(Texel(0.2f, 0.4f, 0.6f, 0.0f));
+  const NeighbourhoodSearch::Match match = nearestAnywhere(flat, flat.describe(window));
+  EXPECT_NEAR(match.distanceSquared, 0.0f, 1e-6f);
+  EXPECT_EQ(match.texel, Vec2i(half, half)) << "all equal: the first";
+}
+
+INSTANTIATE_TEST_SUITE_P(Windows, Search, ::testing::Values(9, 17),
+                         [](const auto& info) { return "Of" + std::to_string(info.param); });
+
+}  // namespace
+}  // namespace ebru
