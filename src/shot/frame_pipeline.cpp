@@ -117,7 +117,7 @@ void FramePipeline::checkVelocity(const std::vector<int>& frames) {
   const PhaseTimer timer(&times_, "check velocity");
   const auto [lowest, highest] = std::minmax_element(frames.begin(), frames.end());
   const int last = std::min(*highest + 1, sequence_->lastFrame());
-  // Each pair costs two frames of reading; a long run can afford a second opinion.
+  // Each pair costs two frames of reading; a long run can afford more of them.
   const VelocityCheck check = ebru::checkVelocity(*sequence_, *lowest, last, frames.size() < 8 ? 1 : 4);
   if (isWarning(check))
     log_.warn(describe(check));
