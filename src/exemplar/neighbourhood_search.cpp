@@ -54,7 +54,8 @@ class NearestOne {
   std::size_t size() const { return found_; }
   float worstDist() const { return limit_; }
   bool addPoint(float distance, std::uint32_t index) {
-    if (found_ && distance == distance_ && index > index_) return true;
+    // The tree compares a whole leaf with the limit it had before the leaf.
+    if (found_ && (distance > distance_ || (distance == distance_ && index > index_))) return true;
     found_ = true;
     distance_ = distance;
     index_ = index;

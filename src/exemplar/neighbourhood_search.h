@@ -42,7 +42,8 @@ class NeighbourhoodSearch {
   const std::array<float, pixels>& weights() const;
 
   Descriptor describe(const Window& window) const;
-  /// The window nearest to the query by the kd-tree (approximately: a branch is left out when it cannot be much nearer),
+  /// The window nearest to the query among every second one of every second row, by the kd-tree (approximately: a branch
+  /// is left out when it cannot be much nearer),
   /// or `bound` itself where nothing nearer than `bound.distanceSquared` is found; ties by position.
   Match nearest(const Descriptor& query, const Match& bound) const;
   /// The distance of the window at a texel, which is moved inside first if its window would not fit.

@@ -12,12 +12,12 @@ TextureTimeline::TextureTimeline(const Shot& shot, FrameStore& frames, StateStor
     : shot_(shot), frames_(frames), states_(states), times_(times), onStep_(std::move(onStep)) {}
 
 std::shared_ptr<const TextureField> TextureTimeline::seek(int frame) {
-  if (method_ && current_ > frame) method_.reset();
-  if (!method_ || current_ < frame) {
-    const int after = method_ ? current_ : shot_.shot.first_frame - 1;
+  const bool ahead = !method_ || current_ > frame;
+  if (ahead || current_ < frame) {
+    const int after = ahead ? shot_.shot.first_frame - 1 : current_;
     if (const auto found = states_.newest(after, frame))
       loadState(*found);
-    else if (!method_)
+    else if (ahead)
       restart();
   }
   while (current_ < frame) step();
@@ -35,7 +35,7 @@ void TextureTimeline::restart() {
 
 void TextureTimeline::loadState(const StateStore::Found& found) {
   onStep_(found.frame);
-  method_ = makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_);
+  if (!method_) method_ = makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_);
   const PhaseTimer timer(times_, "load state");
   method_->load(found.reader);
   current_ = found.frame;

@@ -24,7 +24,7 @@ class PointIndex {
 
   /// The nearest points whose normal makes at least the cosine `minCosine` with `normal`: those of the other side of a
   /// thin sheet do not count. Ordered by distance, ties by index.
-  /// @param found  receives at most found.size() points within `maxDistanceWorld`
+  /// @param found  receives at most found.size() points closer than `maxDistanceWorld`
   /// @return how many
   std::size_t nearest(const Vec3f& pWorld, const Vec3f& normal, float minCosine, float maxDistanceWorld,
                       std::span<Neighbour> found) const;

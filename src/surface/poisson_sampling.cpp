@@ -1,5 +1,6 @@
 #include "surface/poisson_sampling.h"
 
+#include <bit>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -29,6 +30,15 @@ Dart throwDart(const TriangleMesh& mesh, std::size_t t, Random& random) {
   const float length = normal.norm();
   normal = length > 1e-6f ? Vec3f(normal / length) : mesh.normals[tri[0]];
   return {a * mesh.positions[tri[0]] + b * mesh.positions[tri[1]] + c * mesh.positions[tri[2]], normal};
+}
+
+/// Of a triangle's place alone: where the surface rests, the same places are asked in every frame.
+std::uint64_t placeHash(const TriangleMesh& mesh, std::size_t t) {
+  std::uint64_t hash = 0;
+  for (int corner = 0; corner < 3; ++corner)
+    for (int axis = 0; axis < 3; ++axis)
+      hash = hashCombine(hash, std::bit_cast<std::uint32_t>(mesh.positions[mesh.triangles[t][corner]][axis]));
+  return hash;
 }
 
 /// Number of darts for an expected count that is rarely whole, rounded at random so that the mean is right.
@@ -70,8 +80,7 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
 }
 
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
-                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed,
-                        int frame) {
+                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed) {
   CellGrid grid(gapWorld, positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), positions[i]);
 
@@ -81,7 +90,7 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
   std::vector<std::vector<Dart>> candidates((mesh.triangles.size() + block - 1) / block);
   parallelBlocks(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      Random random(seed, frame, t);
+      Random random(seed, 0, placeHash(mesh, t));
       const int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
       for (int d = 0; d < darts; ++d) {
         const Dart dart = throwDart(mesh, t, random);

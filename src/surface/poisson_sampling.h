@@ -26,9 +26,9 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
                        SurfaceSamples& samples);
 
 /// Places of the surface farther than `gapWorld` from every given point of compatible normal, themselves at least
-/// `spacingWorld` apart; tested on a raster of half a `spacingWorld`. For points that move with the surface.
+/// `spacingWorld` apart: 4 darts per spacingWorld^2 are thrown. For points that move with the surface. The darts of a
+/// triangle depend on its place alone, so that where the surface rests no new places are tried.
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
-                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed,
-                        int frame);
+                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed);
 
 }  // namespace ebru

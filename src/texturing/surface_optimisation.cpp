@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "core/random.h"
 #include "surface/cell_grid.h"
 #include "texturing/texture_particles.h"
 
@@ -129,16 +128,6 @@ void WindowSet::transpose(std::size_t pointCount) {
   for (std::size_t w = 0; w < size(); ++w)
     for (const NeighbourhoodPoint& m : members(w))
       proposals_[next[m.index]++] = {static_cast<std::uint32_t>(w), m.displacement, m.turn};
-}
-
-void WindowSet::matchRandomly(std::uint64_t seed, int frame) {
-  parallelFor(size(), 1024, [&](std::size_t w) {
-    Random random(seed, frame, w);
-    const float u = random.uniform() * static_cast<float>(exemplar_.width(level_));
-    const float v = random.uniform() * static_cast<float>(exemplar_.height(level_));
-    uv_[w] = clampInside({u, v});
-    errors_[w] = 1.0f;
-  });
 }
 
 void WindowSet::matchOwnCharts(const SurfaceTexture& texture, float tolerance) {
@@ -304,18 +293,6 @@ void WindowSet::take(const Proposal& p, const SurfaceTexture& texture, std::size
   texture.colour[point] = exemplar_.sample(level_, place);
   texture.st[point] = scale_ * place;
   texture.jacobian[point] = rotation_[p.window] * NeighbourhoodPoint{0, Vec2f::Zero(), p.turn}.axes();
-}
-
-void WindowSet::lay(const SurfaceTexture& texture) const {
-  parallelFor(texture.colour.size(), 1024, [&](std::size_t i) {
-    const std::span<const Proposal> all = proposals(i);
-    if (all.empty()) return;
-    take(*std::min_element(all.begin(), all.end(),
-                           [](const Proposal& a, const Proposal& b) {
-                             return a.displacement.squaredNorm() < b.displacement.squaredNorm();
-                           }),
-         texture, i);
-  });
 }
 
 std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const TransportedTexture& transported,

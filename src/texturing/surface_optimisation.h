@@ -44,10 +44,6 @@ class WindowSet {
 
   std::size_t size() const { return centres_.size(); }
 
-  /// Random exemplar windows as matches [Kwatra 2005, algorithm 1].
-  void matchRandomly(std::uint64_t seed, int frame);
-  /// Lays the texture from the matches as they are: each point takes the proposal of the window whose centre is nearest.
-  void lay(const SurfaceTexture& texture) const;
   /// Each window keeps the chart of its centre, laid rigidly; refined where it does not fit within `tolerance`.
   void matchOwnCharts(const SurfaceTexture& texture, float tolerance);
   /// Steps 1 and 2. A window whose match, refined, fits within `tolerance` (relative to the exemplar's contrast) keeps it;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/random.h"
 #include "surface/cell_grid.h"
 #include "surface/orientation_field.h"
 #include "surface/point_graph.h"
@@ -58,15 +59,21 @@ std::vector<float> transportWeights(const TextureParticles& particles, const std
   return gradient;
 }
 
-/// Orphans come with the box projection's unbounded coordinates: into the exemplar with them.
-void layOrphans(const std::vector<ParticleFate>& fates, const Exemplar& exemplar, TextureParticles& particles) {
-  const Vec2f period(static_cast<float>(exemplar.width()), static_cast<float>(exemplar.height()));
-  parallelFor(particles.size(), 4096, [&](std::size_t i) {
-    if (fates[i] != ParticleFate::orphan) return;
-    Vec2f& st = particles.st[i];
-    st -= (period.array() * (st.array() / period.array()).floor()).matrix();
-    particles.colour[i] = exemplar.sample(0, st);
-  });
+/// Charts to start from where there is no texture yet: pieces of half the exemplar's size in a box projection, each from a
+/// random place of it. Optimisation heals their seams and what the projection stretched.
+void layPiece(const Exemplar& exemplar, float texelWorld, std::uint64_t seed, TextureParticles& particles,
+              std::size_t i) {
+  const Vec3f& normal = particles.normal[i];
+  boxProjection(particles.position[i], normal, particles.orientation[i], texelWorld, particles.st[i],
+                particles.jacobian[i]);
+  const Vec2f piece(0.5f * static_cast<float>(exemplar.width()), 0.5f * static_cast<float>(exemplar.height()));
+  const Vec2i index = (particles.st[i].array() / piece.array()).floor().cast<int>().matrix();
+  int axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  const auto side = static_cast<std::uint64_t>(2 * axis + (normal[axis] < 0.0f));
+  Random random(seed, side, hashCombine(static_cast<std::uint32_t>(index.x()), static_cast<std::uint32_t>(index.y())));
+  const Vec2f corner(random.uniform() * piece.x(), random.uniform() * piece.y());
+  particles.st[i] += corner - (index.cast<float>().array() * piece.array()).matrix();
 }
 
 PointGraph ringGraph(const OrientedPoints& points, float texelWorld) {
@@ -126,7 +133,7 @@ class SynthesisMethod : public TextureMethod {
   /// The first frame that has fluid; `particles` is empty but for the next id.
   void synthesiseFrom(const FluidFrame& first, TextureParticles particles);
   void inheritFromCoarser(TextureParticles& particles, std::size_t coarse, std::size_t fine, int level) const;
-  void synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest, int frame);
+  void synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest);
   void refit(TextureParticles& particles, const std::vector<ParticleFate>& fates);
   void publish(TextureParticles particles) {
     particles_ = std::make_shared<const TextureParticles>(std::move(particles));
@@ -164,7 +171,7 @@ void SynthesisMethod::synthesiseFrom(const FluidFrame& first, TextureParticles p
       const std::size_t count = hierarchy.counts[static_cast<std::size_t>(k)];
       const int level = levels - 1 - k;
       if (k > 0) inheritFromCoarser(particles, coarser, count, level);
-      synthesiseLevel(particles, count, level, k == 0, first.frame);
+      synthesiseLevel(particles, count, level, k == 0);
       coarser = count;
     }
   }
@@ -204,8 +211,7 @@ void SynthesisMethod::inheritFromCoarser(TextureParticles& particles, std::size_
   });
 }
 
-void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest,
-                                      int frame) {
+void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest) {
   const float texel = texelWorld_ * static_cast<float>(1 << level);
   LevelView view = firstPoints(particles, count);
   const PointGraph graph = ringGraph(view.points, texel);
@@ -214,20 +220,19 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
   std::copy(orientation.begin(), orientation.end(), particles.orientation.begin());
 
   const auto l = static_cast<std::size_t>(level);
-  if (coarsest) {
-    // Random exemplar windows side by side: whole features from all over the exemplar, whose seams the passes heal.
-    WindowSet windows(view.points, graph, wide_[l], *exemplar_, level, texel, 0.6f, {}, {});
-    windows.matchRandomly(seed_, frame);
-    windows.lay(view.texture);
-  }
+  if (coarsest)
+    parallelFor(count, 1024, [&](std::size_t i) {
+      layPiece(*exemplar_, texelWorld_, seed_, particles, i);
+      particles.colour[i] = exemplar_->sample(level, particles.st[i] / static_cast<float>(1 << level));
+    });
   for (const NeighbourhoodSearch* search : {&wide_[l], &narrow_[l]}) {
     const bool wide = search->window() == 17;
-    WindowSet windows(view.points, graph, *search, *exemplar_, level, texel, 0.25f, {}, {});
+    WindowSet windows(view.points, graph, *search, *exemplar_, level, texel, 0.25f, {}, view.texture.jacobian);
     if (windows.size() == 0) return;
     windows.matchOwnCharts(view.texture, goodFit);
     const int iterations = coarsest ? 6 : wide ? 3 : 2;
     for (int i = 0; i < iterations; ++i) {
-      windows.matchNearest(view.texture, coarsest ? 0.0f : goodFit, coarsest || i == 0);
+      windows.matchNearest(view.texture, goodFit, i == 0 || coarsest);
       windows.average(view.texture, {}, {});
     }
     windows.choose(view.texture, {}, {}, 0.0f);
@@ -258,7 +263,11 @@ void SynthesisMethod::refit(TextureParticles& particles, const std::vector<Parti
   std::vector<std::uint8_t> active(particles.size());
   for (std::size_t i = 0; i < active.size(); ++i) active[i] = fates[i] != ParticleFate::still;
   if (std::find(active.begin(), active.end(), 1) == active.end()) return;
-  layOrphans(fates, *exemplar_, particles);
+  parallelFor(particles.size(), 1024, [&](std::size_t i) {
+    if (fates[i] != ParticleFate::orphan) return;
+    layPiece(*exemplar_, texelWorld_, seed_, particles, i);
+    particles.colour[i] = exemplar_->sample(0, particles.st[i]);
+  });
   LevelView view = firstPoints(particles, particles.size());
   const PointGraph graph = ringGraph(view.points, texelWorld_);
   const std::vector<Texel> colour(particles.colour);

@@ -24,7 +24,8 @@ class TextureMethod {
   /// Of the newest frame; stays valid and unchanged after later advances while the pointer is held.
   virtual std::shared_ptr<const TextureField> field() const = 0;
 
-  /// State of the newest frame: `load` into a new object of the same options, then `advance` gives the same bits.
+  /// State of the newest frame: after `load` into an object of the same options, whatever it held before, `advance` gives
+  /// the same bits.
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(const StateReader& reader) = 0;
 };

@@ -21,7 +21,7 @@ void gather(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
 }
 
 /// Peak memory of synthesis per particle: arrays, graph, cached windows, search trees.
-constexpr double bytesPerParticle = 600.0;
+constexpr double bytesPerParticle = 1000.0;
 
 }  // namespace
 

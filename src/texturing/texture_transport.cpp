@@ -36,10 +36,16 @@ bool carryOne(const Flow& flow, const FluidFrame& to, float texelWorld, TextureP
   Vec3f& x = particles.position[i];
   Vec3f& n = particles.normal[i];
   Vec3f& o = particles.orientation[i];
+  const float probe = probeTexels * texelWorld;
+  const Vec3f t = secondAxis(n, o);
+  const Vec3f ends[2] = {x + probe * o, x + probe * t};
   const Vec3f carried = flow.forward(x);
+  const Vec3f carriedEnds[2] = {flow.forward(ends[0]), flow.forward(ends[1])};
   Eigen::Matrix<float, 1, 1> distance;
   const float voxel = to.voxelSizeWorld;
-  if (carried == x && to.signedDistance.sample(x, distance) && std::abs(distance[0]) < stillSurfaceVoxels * voxel) {
+  // The axes, too: at the centre of an eddy the place rests and the frame turns.
+  if (carried == x && carriedEnds[0] == ends[0] && carriedEnds[1] == ends[1] &&
+      to.signedDistance.sample(x, distance) && std::abs(distance[0]) < stillSurfaceVoxels * voxel) {
     fate = ParticleFate::still;
     return true;
   }
@@ -47,10 +53,8 @@ bool carryOne(const Flow& flow, const FluidFrame& to, float texelWorld, TextureP
   Vec3f landed, normal;
   if (!to.closestPoint(carried, landed, normal) || (landed - carried).norm() > maxDropVoxels * voxel) return false;
 
-  const float probe = probeTexels * texelWorld;
-  const Vec3f t = secondAxis(n, o);
-  const Vec3f a = (flow.forward(x + probe * o) - carried) / probe;
-  const Vec3f b = (flow.forward(x + probe * t) - carried) / probe;
+  const Vec3f a = (carriedEnds[0] - carried) / probe;
+  const Vec3f b = (carriedEnds[1] - carried) / probe;
   if (b.cross(a).dot(normal) < 0.0f) return false;  // it would come down on the other side of a sheet
   Vec3f first = a - a.dot(normal) * normal;
   if (first.norm() < 1e-3f) first = transportTangent(o, n, normal);
@@ -144,7 +148,7 @@ void keepSpacing(const FluidFrame& frame, const Exemplar& exemplar, float texelW
   if (kept.size() != particles.size()) applyOrder(kept, particles, fates);
 
   const SurfaceSamples gaps = findGaps(frame.mesh, particles.position, particles.normal, gapTexels * texelWorld,
-                                       refillTexels * texelWorld, seed, frame.frame);
+                                       refillTexels * texelWorld, seed);
   if (gaps.size() > 0) {
     const std::size_t oldCount = particles.size();
     const std::vector<Vec3f> oldPositions = particles.position, oldNormals = particles.normal;

@@ -65,6 +65,17 @@ class Search : public ::testing::TestWithParam<int> {
     return {half + static_cast<int>(x),
             half + static_cast<int>(random.below(static_cast<std::uint32_t>(60 - 2 * half)))};
   }
+  /// Mean over random pairs of windows.
+  float usualDistance() const {
+    float sum = 0.0f;
+    for (std::uint64_t i = 0; i < 100; ++i)
+      sum +=
+          search
+              .at(randomTexel(i), search.describe(windowAt(exemplar, search, centreOf(randomTexel(500 + i)))))
+              .distanceSquared /
+          100.0f;
+    return sum;
+  }
   const Exemplar exemplar;
   const NeighbourhoodSearch search;
   const int half;
@@ -85,6 +96,59 @@ TEST_P(Search, SaysWhatItComparesAndHow) {
 NeighbourhoodSearch::Match nearestAnywhere(const NeighbourhoodSearch& search,
                                            const NeighbourhoodSearch::Descriptor& query) {
   return search.nearest(query, {{0, 0}, infinity});
+}
+
+// Every second window of every second row is in the tree: of a block of 2 x 2 places one finds itself, and
+// the others find one near them.
+TEST_P(Search, AWindowOfTheExemplarFindsItsOwnPlace) {
+  const float usual = usualDistance();
+  for (std::uint64_t i = 0; i < 30; ++i) {
+    const Vec2i corner = randomTexel(i).cwiseMin(Vec2i(70 - half, 58 - half));
+    int themselves = 0;
+    for (const Vec2i& offset : {Vec2i(0, 0), Vec2i(1, 0), Vec2i(0, 1), Vec2i(1, 1)}) {
+      const Vec2i texel = corner + offset;
+      const NeighbourhoodSearch::Match match =
+          nearestAnywhere(search, search.describe(windowAt(exemplar, search, centreOf(texel))));
+      EXPECT_LE((match.texel - texel).cwiseAbs().maxCoeff(), 2);
+      EXPECT_LT(match.distanceSquared, 0.5f * usual);
+      if (match.texel != texel) continue;
+      ++themselves;
+      EXPECT_LT(match.distanceSquared, 0.005f * usual);
+    }
+    EXPECT_GE(themselves, 1);
+  }
+}
+
+// The corners: the first and last window that fit.
+TEST_P(Search, FindsTheFirstAndTheLastWindow) {
+  for (const Vec2i& texel : {Vec2i(half, half), Vec2i(71 - half, 59 - half)}) {
+    const NeighbourhoodSearch::Match match =
+        nearestAnywhere(search, search.describe(windowAt(exemplar, search, centreOf(texel))));
+    EXPECT_LE((match.texel - texel).cwiseAbs().maxCoeff(), 2);
+  }
+}
+
+// The tree leaves out branches that are not nearer by a factor of 2.5 in squared distance.
+TEST_P(Search, IsNearlyAsNearAsBruteForce) {
+  double excess = 0.0;
+  constexpr int queries = 40;
+  for (std::uint64_t i = 0; i < queries; ++i) {
+    NeighbourhoodSearch::Window query = windowAt(exemplar, search, centreOf(randomTexel(100 + i)));
+    const NeighbourhoodSearch::Window other = windowAt(exemplar, search, centreOf(randomTexel(200 + i)));
+    for (std::size_t p = 0; p < query.size(); ++p) query[p] = 0.6f * query[p] + 0.4f * other[p];
+    const NeighbourhoodSearch::Descriptor descriptor = search.describe(query);
+    const NeighbourhoodSearch::Match found = nearestAnywhere(search, descriptor);
+    float least = infinity;
+    for (int y = half; y < 60 - half; y += 2)
+      for (int x = half; x < 72 - half; x += 2)
+        least = std::min(least, search.at({x, y}, descriptor).distanceSquared);
+    EXPECT_GE(found.distanceSquared, least * 0.9999f);
+    EXPECT_LE(found.distanceSquared, 2.6f * least);
+    EXPECT_NEAR(search.at(found.texel, descriptor).distanceSquared, found.distanceSquared,
+                1e-4f * found.distanceSquared);
+    excess += found.distanceSquared / least - 1.0f;
+  }
+  EXPECT_LT(excess / queries, 0.2) << "and mostly it is the nearest";
 }
 
 TEST_P(Search, NothingFartherThanTheBound) {
@@ -130,6 +194,19 @@ TEST_P(Search, WorksOnAConstantExemplar) {
   const NeighbourhoodSearch::Match match = nearestAnywhere(flat, flat.describe(window));
   EXPECT_NEAR(match.distanceSquared, 0.0f, 1e-6f);
   EXPECT_EQ(match.texel, Vec2i(half, half)) << "all equal: the first";
+}
+
+// A match of level 1 is a texel of level 1.
+TEST_P(Search, OnACoarserLevel) {
+  const NeighbourhoodSearch coarse(exemplar, 1, GetParam());
+  EXPECT_EQ(coarse.level(), 1);
+  // The exemplar's level 1 is 36 x 30 texels.
+  EXPECT_EQ(coarse.clampInside({100.0f, 100.0f}),
+            Vec2f(35.5f - static_cast<float>(half), 29.5f - static_cast<float>(half)));
+  const Vec2i texel(18, 15);
+  const NeighbourhoodSearch::Match match =
+      nearestAnywhere(coarse, coarse.describe(windowAt(exemplar, coarse, centreOf(texel))));
+  EXPECT_LE((match.texel - texel).cwiseAbs().maxCoeff(), 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Windows, Search, ::testing::Values(9, 17),

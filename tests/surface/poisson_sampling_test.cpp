@@ -125,7 +125,7 @@ TEST(PoissonSampling, AnEmptyMeshHasNoSamples) {
   SurfaceSamples samples;
   addPoissonSamples({}, 1.0f, 1, 1, samples);
   EXPECT_EQ(samples.size(), 0u);
-  EXPECT_EQ(findGaps({}, {}, {}, 1.0f, 1.0f, 1, 1).size(), 0u);
+  EXPECT_EQ(findGaps({}, {}, {}, 1.0f, 1.0f, 1).size(), 0u);
 }
 
 // A disc of radius 5 spacings is punched out of a settled set.
@@ -148,11 +148,11 @@ class PunchedHole : public ::testing::Test {
 };
 
 TEST_F(PunchedHole, NothingIsMissingWithoutIt) {
-  EXPECT_EQ(findGaps(mesh, full.positions, full.normals, gap, spacing, 1, 1).size(), 0u);
+  EXPECT_EQ(findGaps(mesh, full.positions, full.normals, gap, spacing, 1).size(), 0u);
 }
 
 TEST_F(PunchedHole, IsFilledAndNothingElse) {
-  const SurfaceSamples gaps = findGaps(mesh, positions, normals, gap, spacing, 1, 1);
+  const SurfaceSamples gaps = findGaps(mesh, positions, normals, gap, spacing, 1);
   const PointIndex old(positions, normals);
   for (const Vec3f& p : gaps.positions) {
     EXPECT_LT(p.norm(), hole);
@@ -173,13 +173,13 @@ TEST_F(PunchedHole, IsFilledAndNothingElse) {
 
 TEST_F(PunchedHole, PointsOfTheOtherSideDoNotFillIt) {
   const std::vector<Vec3f> other(normals.size(), -Vec3f::UnitZ());
-  const SurfaceSamples gaps = findGaps(mesh, positions, other, gap, spacing, 1, 1);
+  const SurfaceSamples gaps = findGaps(mesh, positions, other, gap, spacing, 1);
   EXPECT_NEAR(static_cast<double>(gaps.size()) / (30.5 * 30.5), 0.7, 0.15);
 }
 
 TEST_F(PunchedHole, IsFilledTheSameWayAgain) {
-  EXPECT_TRUE(identical(findGaps(mesh, positions, normals, gap, spacing, 7, 3),
-                        findGaps(mesh, positions, normals, gap, spacing, 7, 3)));
+  EXPECT_TRUE(identical(findGaps(mesh, positions, normals, gap, spacing, 7),
+                        findGaps(mesh, positions, normals, gap, spacing, 7)));
 }
 
 }  // namespace
