@@ -240,19 +240,21 @@ int likeliness(const VdbGridInfo& grid, bool velocity) {
 }
 
 /// Where a file's table of contents says its grids end. OpenVDB itself reads past the end of a file without a
-/// word.
+/// word and takes what was in memory for sizes of what to read next.
 class ContentsReader : public openvdb::io::Archive {
  public:
   /// @return 0 for a file written as a stream, which has no table
+  /// @throw std::exception if the file ends within the table
   std::int64_t end(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
+    in.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
     readHeader(in);
     setFormatVersion(in);
     openvdb::MetaMap meta;
     meta.readMeta(in);
     if (!inputHasGridOffsets()) return 0;
     std::int64_t last = 0;
-    for (std::int32_t count = readGridCount(in); count > 0 && in; --count) {
+    for (std::int32_t count = readGridCount(in); count > 0; --count) {
       openvdb::io::GridDescriptor descriptor;
       descriptor.read(in);
       last = std::max<std::int64_t>(last, descriptor.getEndPos());
@@ -261,6 +263,14 @@ class ContentsReader : public openvdb::io::Archive {
     return last;
   }
 };
+
+std::int64_t endOfContents(const std::string& path, std::int64_t size) {
+  try {
+    return ContentsReader().end(path);
+  } catch (const std::ios::failure&) {
+    throw openvdb::IoError(fmt::format("it ends at byte {}, within its table of contents", size));
+  }
+}
 
 }  // namespace
 
@@ -284,11 +294,11 @@ struct VdbFile::Impl {
 VdbFile::VdbFile(const std::string& path) : path_(path) {
   openvdb::initialize();
   try {
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
+    if (const std::int64_t end = endOfContents(path, size); size < end)
+      throw openvdb::IoError(fmt::format("it ends at byte {}, its contents at {}", size, end));
     impl_ = std::make_unique<Impl>(path);
     impl_->file.open(/*delayLoad=*/false);
-    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
-    if (const std::int64_t end = ContentsReader().end(path); size < end)
-      throw openvdb::IoError(fmt::format("it ends at byte {}, its contents at {}", size, end));
     for (auto it = impl_->file.beginName(); it != impl_->file.endName(); ++it) {
       VdbGridInfo info{it.gridName(), "unknown", "unknown"};
       try {

@@ -32,11 +32,12 @@ def test_missing_frame(folder):
 
 
 def test_truncated_vdb(folder):
-    for share in (0.0, 0.02, 0.5, 0.97):
+    for share, reason in ((0.0, "at byte 0"), (0.02, "ends at byte"), (0.5, "ends at byte"), (0.97, "ends at byte")):
         (folder / str(share)).mkdir()
         cache = write_cache(folder / str(share), frames=2)
         truncate(cache / "ball.0001.vdb", share)
-        refuses(folder / str(share), write_cache_shot(folder / str(share), frames=2), INPUT, "ball.0001.vdb")
+        shot = write_cache_shot(folder / str(share), frames=2)
+        refuses(folder / str(share), shot, INPUT, "ball.0001.vdb", reason)
 
 
 def test_vdb_without_the_velocity_names_the_grids_it_has(folder):
