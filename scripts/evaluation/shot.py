@@ -1,0 +1,22 @@
+"""What a shot file says that the pictures do not."""
+
+import pathlib
+import tomllib
+
+from evaluation.errors import InputError
+
+
+def read(path):
+    """@return the tables of the shot, file names made absolute  @throw InputError"""
+    path = pathlib.Path(path)
+    try:
+        tables = tomllib.loads(path.read_text())
+    except OSError as e:
+        raise InputError(f"{path}: cannot be read ({e.strerror}); name a shot file") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as e:
+        raise InputError(f"{path}: got a file that is no TOML ({e}), expected a shot") from None
+    if "exemplar" in tables.get("texture", {}):
+        tables["texture"]["exemplar"] = str((path.parent / tables["texture"]["exemplar"]).resolve())
+    tables.setdefault("shot", {}).setdefault("fps", 24.0)
+    tables["shot"].setdefault("name", path.stem)
+    return tables
