@@ -21,7 +21,7 @@ import requirements
 requirements.provide()
 
 from evaluation import command, comparison_report, frames, report, sequence, shot, terminal_table
-from evaluation.errors import InputError
+from evaluation.errors import UsageError
 
 CORES_PER_RENDER = 4  # as many as one render keeps busy
 STRIP_FRAMES = 8
@@ -91,7 +91,7 @@ def main():
     arguments = parse()
     methods = [name for name in arguments.methods.split(",") if name]
     if not methods or len(set(methods)) < len(methods):
-        raise InputError(f"--methods: got \"{arguments.methods}\", expected different names with commas")
+        raise UsageError(f"--methods: got \"{arguments.methods}\", expected different names with commas")
     shot_file = command.find_shot(arguments.shot)
     tables = shot.read(shot_file)
     out = (arguments.out or command.ROOT / "out" / f"{tables['shot']['name']}_comparison").absolute()

@@ -18,6 +18,7 @@ import requirements
 requirements.provide()
 
 from evaluation import command, flow_files, frames, gates, layouts, report, sequence, shot, terminal_table
+from evaluation.errors import InputError
 
 
 def parse():
@@ -31,12 +32,12 @@ def parse():
     parser.add_argument("--require", nargs="+", default=[], metavar="METRIC=BOUND",
                         help="METRIC=UPPER, METRIC=LOWER: or METRIC=LOWER:UPPER; METRIC_max or _min for the worst frame")
     parser.add_argument("--layout", choices=layouts.NAMES, default="ebru", help="names and signs of the channels")
-    parser.add_argument("--colour", default="albedo",
-                        help="layer that is judged (default albedo); rgb: the lit picture, whose highlights do not follow the "
+    parser.add_argument("--colour", choices=("albedo", "rgb"), default="albedo",
+                        help="what is judged (default albedo); rgb: the lit picture, whose highlights do not follow the "
                              "surface")
     parser.add_argument("--exemplar", help="picture the texture should look like (default: the shot's)")
-    parser.add_argument("--texel-size", type=float, help="metres of surface per exemplar texel (default: the header's)")
-    parser.add_argument("--fps", type=float, help="frames per second (default: the header's, else 24)")
+    parser.add_argument("--texel-size", type=float, help="metres of surface per exemplar texel (default: the shot's, else the header's)")
+    parser.add_argument("--fps", type=float, help="frames per second (default: the shot's, the header's, else 24)")
     parser.add_argument("--write-flow", choices=flow_files.FORMATS,
                         help="also write forward motion as .flo or KITTI PNG, to OUT/flow/")
     command.add_metric_arguments(parser)
@@ -44,9 +45,13 @@ def parse():
 
 
 def write_flow(kind, paths, folder, settings):
+    """@throw InputError if the frames have no motion"""
     folder.mkdir(parents=True, exist_ok=True)
     for number, path in paths.items():
         frame = frames.read(path, number, settings.layout, settings.colour)
+        if not frame.has("forward.u", "forward.v", "texture.mask"):
+            raise InputError(f"{path}: channels: got no forward.u and forward.v, expected motion vectors to write as --write-flow "
+                             f"{kind}; choose another --layout")
         flow_files.write(folder, path.name.rsplit(".", 2)[0], frame, kind)
 
 
@@ -59,12 +64,12 @@ def main():
     out = arguments.out or arguments.folder
     out.mkdir(parents=True, exist_ok=True)
 
+    if arguments.write_flow:
+        write_flow(arguments.write_flow, paths, out / "flow", settings)
     result, pictures = sequence.evaluate(paths, settings, command.Progress("evaluate"))
     result["gates"] = [bound.check(result) for bound in bounds]
     command.write_json(out / "metrics.json", result)
     report.write_report(out / "report.html", result, pictures)
-    if arguments.write_flow:
-        write_flow(arguments.write_flow, paths, out / "flow", settings)
 
     print(terminal_table.summary_table(result))
     print(f"metrics  {out / 'metrics.json'}\nreport   {out / 'report.html'}")

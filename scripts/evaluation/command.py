@@ -9,7 +9,7 @@ import time
 from evaluation import exemplar as exemplars
 from evaluation import frames, sequence
 from evaluation import shot as shots
-from evaluation.errors import InputError
+from evaluation.errors import InputError, UsageError
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -55,13 +55,17 @@ def settings_of(arguments, shot=None):
     texture = shot.get("texture", {})
     exemplar = getattr(arguments, "exemplar", None) or texture.get("exemplar")
     if arguments.side < 5 or arguments.side % 2 == 0:
-        raise InputError(f"--side: got {arguments.side}, expected an odd number of at least 5")
+        raise UsageError(f"--side: got {arguments.side}, expected an odd number of at least 5")
     if arguments.windows < 1:
-        raise InputError(f"--windows: got {arguments.windows}, expected at least 1")
-    fps = getattr(arguments, "fps", None)
+        raise UsageError(f"--windows: got {arguments.windows}, expected at least 1")
+    if arguments.jobs < 0 or arguments.seed < 0:
+        name = "--jobs" if arguments.jobs < 0 else "--seed"
+        raise UsageError(f"{name}: got {min(arguments.jobs, arguments.seed)}, expected 0 or more")
+    texel_size = getattr(arguments, "texel_size", None) or texture.get("texel_size")
+    fps = getattr(arguments, "fps", None) or (shot["shot"]["fps"] if shot else None)
     return sequence.Settings(
         exemplar=exemplars.read(exemplar) if exemplar else None,
-        texel_size_world=getattr(arguments, "texel_size", None), fps=fps,
+        texel_size_world=texel_size, fps=fps,
         fluid={**shot.get("fluid", {}), "fps": shot.get("shot", {}).get("fps", 24.0)},
         layout=getattr(arguments, "layout", "ebru"), colour=getattr(arguments, "colour", "albedo"), flow=arguments.flow,
         windows=arguments.windows, side=arguments.side, seed=arguments.seed, jobs=arguments.jobs)
@@ -79,7 +83,7 @@ def run(main):
         sys.exit(main())
     except InputError as e:
         print(f"{pathlib.Path(sys.argv[0]).name}: error: {e}", file=sys.stderr)
-        sys.exit(3)
+        sys.exit(2 if isinstance(e, UsageError) else 3)
     except OSError as e:
         print(f"{pathlib.Path(sys.argv[0]).name}: error: {e.filename}: {e.strerror}", file=sys.stderr)
         sys.exit(4)

@@ -21,7 +21,7 @@ class Exemplar:
 
 def read(path):
     """8- and 16-bit files hold encoded values, float files scene-linear ones.
-    @throw InputError if it is no picture, or one without any contrast to measure by"""
+    @throw InputError if it is no picture of finite values"""
     picture = oiio.ImageBuf(str(path))
     pixels = picture.get_pixels(oiio.FLOAT) if picture.initialized else None
     if pixels is None:

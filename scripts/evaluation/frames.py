@@ -76,8 +76,8 @@ class Frame:
     def project(self, points):
         """@param points ... x 3 world  @return ... x 3: column, row (pixels) and depth (grows away from the camera)"""
         m = self.world_to_ndc()
-        h = points.astype(float) @ m[:3] + m[3]
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(all="ignore"):
+            h = points.astype(float) @ m[:3] + m[3]
             return h[..., :3] / h[..., 3:] * [self.width, self.height, 1.0]
 
 
@@ -114,6 +114,19 @@ def _attributes(spec):
     return found
 
 
+def _placed(data, spec):
+    """The data window's pixels on the display window, which the camera sees; 0 where there are none."""
+    x, y = spec.x - spec.full_x, spec.y - spec.full_y
+    if (x, y, spec.width, spec.height) == (0, 0, spec.full_width, spec.full_height):
+        return data
+    whole = np.zeros((spec.full_height, spec.full_width, data.shape[2]), np.float32)
+    left, top = max(x, 0), max(y, 0)
+    right, bottom = min(x + spec.width, spec.full_width), min(y + spec.height, spec.full_height)
+    if right > left and bottom > top:
+        whole[top:bottom, left:right] = data[top - y : bottom - y, left - x : right - x]
+    return whole
+
+
 def read(path, number, layout="ebru", colour="albedo"):
     """@throw InputError if the file is no whole EXR picture"""
     picture = oiio.ImageInput.open(str(path))
@@ -130,12 +143,12 @@ def read(path, number, layout="ebru", colour="albedo"):
                 raise InputError(f"{path}: got a file that ends early or is damaged ({picture.geterror().strip()}), "
                                  "expected a whole picture; render it again")
             if part == 0:
-                width, height = spec.width, spec.height
+                width, height = spec.full_width, spec.full_height
                 attributes = _attributes(spec)
-            elif (spec.width, spec.height) != (width, height):
-                raise InputError(f"{path}: parts: got {spec.width} x {spec.height} and {width} x {height} px, expected "
-                                 "one size")
-            data = np.asarray(data, np.float32).reshape(height, width, spec.nchannels)
+            elif (spec.full_width, spec.full_height) != (width, height):
+                raise InputError(f"{path}: parts: got {spec.full_width} x {spec.full_height} and {width} x {height} px, "
+                                 "expected one size")
+            data = _placed(np.asarray(data, np.float32).reshape(spec.height, spec.width, spec.nchannels), spec)
             for i, name in enumerate(spec.channelnames):
                 planes.setdefault(name, np.ascontiguousarray(data[..., i]))
             part += 1

@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from evaluation.errors import InputError
+from evaluation.errors import UsageError
 from evaluation.metrics import METRICS
 
 
@@ -35,15 +35,15 @@ def _names():
 
 
 def parse(text):
-    """NAME=BOUND (at most), NAME=LOWER: (at least), NAME=LOWER:UPPER.  @throw InputError"""
+    """NAME=BOUND (at most), NAME=LOWER: (at least), NAME=LOWER:UPPER.  @throw UsageError"""
     name, equals, bound = text.partition("=")
     if not equals or name not in _names():
-        raise InputError(f"--require: got \"{text}\", expected METRIC=BOUND; metrics are {', '.join(_names())}")
+        raise UsageError(f"--require: got \"{text}\", expected METRIC=BOUND; metrics are {', '.join(_names())}")
     lower, colon, upper = bound.rpartition(":")
     try:
         gate = Gate(name, float(lower) if lower else None, float(upper) if upper else None)
     except ValueError:
         gate = Gate(name, None, None)
     if gate.lower is None and gate.upper is None:
-        raise InputError(f"--require: {name}: got \"{bound}\", expected a number (at most), LOWER: or LOWER:UPPER")
+        raise UsageError(f"--require: {name}: got \"{bound}\", expected a number (at most), LOWER: or LOWER:UPPER")
     return gate

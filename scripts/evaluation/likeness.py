@@ -111,6 +111,8 @@ def distortion(frame, exemplar, texel_size_world):
     on_surface = np.stack([np.stack([(d[usable] * a).sum(-1) for d in p_spans], -1) for a in (t, b)], -2)  # N x 2 x 2
     in_texture = np.stack([d[usable] for d in spans], -1)
     regular = np.abs(np.linalg.det(on_surface)) > 1e-9
+    if not regular.any():
+        raise NotComputed("P does not change from pixel to pixel")
     jacobian = in_texture[regular] @ np.linalg.inv(on_surface[regular])
     s = np.linalg.svd(jacobian, compute_uv=False)
     worst = np.maximum(s[:, 0], 1 / np.maximum(s[:, 1], 1e-3))

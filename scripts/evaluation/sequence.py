@@ -52,10 +52,14 @@ _run: _Run | None = None  # set once per process
 
 
 def _texel_size(frame, settings):
-    size = settings.texel_size_world or frame.attributes.get("ebru:texelSizeWorld")
+    size = _texel_size_or_none(frame, settings)
     if not size:
         raise NotComputed("the header has no ebru:texelSizeWorld; give --texel-size or --shot")
     return float(size)
+
+
+def _texel_size_or_none(frame, settings):
+    return settings.texel_size_world or frame.attributes.get("ebru:texelSizeWorld")
 
 
 def _fps(frame, settings):
@@ -119,6 +123,7 @@ def _spectrum(frame, settings):
 def _begin(run):
     global _run
     _run = run
+    _read.cache_clear()
     cv2.setNumThreads(1)
 
 
@@ -150,8 +155,7 @@ def _measure_pair(frame, following, figures):
                          f"{frame.height} as in {frame.path.name}; render the sequence in one size")
     pair_ids = [name for name, metric in metrics.METRICS.items() if metric.pair]
     try:
-        texel = settings.texel_size_world or frame.attributes.get("ebru:texelSizeWorld")
-        matched = masks.matched(frame, following, texel, _fps(frame, settings))
+        matched = masks.matched(frame, following, _texel_size_or_none(frame, settings), _fps(frame, settings))
     except NotComputed as e:
         figures.reasons.update({i: str(e) for i in pair_ids})
         return None, None
@@ -168,8 +172,9 @@ def _measure_pair(frame, following, figures):
         return coherence.compare(kept["warp"], frame, matched)
 
     figures.add([i for i in pair_ids if i.startswith("flow_")], flow)
-    figures.add(["warp_error", "warp_error_p99", "popping"], warp)
+    figures.add(["warp_error", "warp_error_p99", "popping", "still_change"], warp)
     if "warp" in kept:
+        figures.reasons.pop("still_change", None)
         figures.add(["still_change"], lambda: coherence.still(kept["warp"], frame, matched))
         kept["warp"] = np.where(matched, kept["warp"], np.nan).astype(np.float32)
     return kept.get("flow"), kept.get("warp")
@@ -280,7 +285,7 @@ def _sum_up(found, settings, first):
         "method": first.attributes.get("ebru:method"),
         "folder": str(first.path.parent),
         "exemplar": settings.exemplar.path if settings.exemplar else None,
-        "texel_size_world": settings.texel_size_world or first.attributes.get("ebru:texelSizeWorld"),
+        "texel_size_world": _texel_size_or_none(first, settings),
         "fps": _fps(first, settings),
         "width": first.width,
         "height": first.height,
