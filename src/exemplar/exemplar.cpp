@@ -162,4 +162,13 @@ Texel Exemplar::sample(int level, const Vec2f& uv, Texel& du, Texel& dv) const {
   return sum;
 }
 
+Texel Exemplar::sampleFiltered(const Vec2f& uv, float width) const {
+  if (!(width > 1.0f)) return sample(0, uv);
+  const float level = std::min(std::log2(width), static_cast<float>(levelCount() - 1));
+  const int fine = std::min(static_cast<int>(level), levelCount() - 1);
+  const float t = level - static_cast<float>(fine);
+  const auto at = [&](int l) { return sample(l, uv / static_cast<float>(1 << l)); };
+  return t > 0.0f ? ((1.0f - t) * at(fine) + t * at(fine + 1)).eval() : at(fine);
+}
+
 }  // namespace ebru

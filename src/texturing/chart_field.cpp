@@ -1,6 +1,7 @@
 #include "texturing/chart_field.h"
 
 #include <array>
+#include <cmath>
 
 #include "core/parallel.h"
 
@@ -31,13 +32,15 @@ TextureSample ChartField::lookup(const SurfacePoint& point) const {
     return Vec2f(particles.st[i] +
                  particles.jacobian[i] * localTexels(particles, i, point.position, nearest_.texelWorld()));
   };
+  const float footprintTexels = point.footprintWorld / nearest_.texelWorld();
   Texel sum = Texel::Zero();
   float weights = 0.0f;
   for (std::size_t k = 0; k < count; ++k) {
     const float falloff = std::max(0.0f, 1.0f - found[k].distanceSquared / (reach * reach));
     const float weight = falloff * falloff * falloff + 1e-12f;
     const std::size_t i = found[k].index;
-    sum += weight * (residual_[i] + exemplar_->sample(0, chart(i)));
+    const float width = footprintTexels * std::sqrt(std::abs(particles.jacobian[i].determinant()));
+    sum += weight * (residual_[i] + exemplar_->sampleFiltered(chart(i), width));
     weights += weight;
   }
   const Texel texel = sum / weights;

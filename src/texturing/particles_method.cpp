@@ -47,7 +47,8 @@ class CoordinateField : public TextureField {
     jacobian = particles.jacobian[first];
     st /= weights;
     const Vec2f wrapped(wrap(st.x(), exemplar_->width()), wrap(st.y(), exemplar_->height()));
-    const Texel texel = exemplar_->sample(0, wrapped);
+    const float width = point.footprintWorld / nearest_.texelWorld() * std::sqrt(std::abs(jacobian.determinant()));
+    const Texel texel = exemplar_->sampleFiltered(wrapped, width);
     sample.colour = linearColour(texel);
     sample.displacement = texel[3];
     sample.st = Vec2f(wrapped.x() / static_cast<float>(exemplar_->width()),

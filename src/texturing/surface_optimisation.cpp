@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "surface/cell_grid.h"
@@ -268,8 +269,7 @@ float WindowSet::fit(std::size_t w) const {
   return std::pow(errors_[w] + 0.05f, -1.2f);
 }
 
-void WindowSet::average(const SurfaceTexture& texture, const TransportedTexture& transported,
-                        std::span<const std::uint8_t> only) const {
+void WindowSet::average(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const {
   parallelFor(texture.colour.size(), 256, [&](std::size_t i) {
     if (proposals(i).empty() || (!only.empty() && !only[i])) return;
     Texel sum = Texel::Zero();
@@ -278,11 +278,6 @@ void WindowSet::average(const SurfaceTexture& texture, const TransportedTexture&
       const float g = falloff(p.displacement) * fit(p.window);
       sum += g * exemplar_.sample(level_, exemplarPlace(p.window, p.displacement));
       weights += g;
-    }
-    if (!transported.colour.empty() && transported.weight[i] >= 0.0f) {
-      const float lambda = transported.weight[i] * weights;
-      sum += lambda * transported.colour[i];
-      weights += lambda;
     }
     texture.colour[i] = sum / weights;
   });
@@ -295,10 +290,8 @@ void WindowSet::take(const Proposal& p, const SurfaceTexture& texture, std::size
   texture.jacobian[point] = rotation_[p.window] * NeighbourhoodPoint{0, Vec2f::Zero(), p.turn}.axes();
 }
 
-std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const TransportedTexture& transported,
-                                            std::span<const std::uint8_t> only, float keepMargin) const {
+void WindowSet::choose(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const {
   const float contrast = std::max(exemplar_.contrast(), 1e-4f);
-  std::vector<std::uint8_t> replaced(texture.colour.size(), 0);
   parallelFor(texture.colour.size(), 256, [&](std::size_t i) {
     if (proposals(i).empty() || (!only.empty() && !only[i])) return;
     const Texel mean = texture.colour[i];
@@ -313,26 +306,25 @@ std::vector<std::uint8_t> WindowSet::choose(const SurfaceTexture& texture, const
         chosen = &p;
       }
     }
-    if (!transported.colour.empty() && transported.weight[i] >= 0.0f) {
-      const float own = std::sqrt(squaredColourDistance(transported.colour[i], mean) / 3.0f) / contrast;
-      if (own < best + keepMargin) {
-        texture.colour[i] = transported.colour[i];
-        return;
-      }
-    }
     take(*chosen, texture, i);
-    replaced[i] = 1;
   });
-  return replaced;
 }
 
-std::vector<std::uint8_t> WindowSet::coveredByPoorWindow(float tolerance) const {
-  std::vector<std::uint8_t> covered(proposalOffsets_.size() - 1, 0);
-  parallelFor(covered.size(), 1024, [&](std::size_t i) {
-    for (const Proposal& p : proposals(i))
-      if (errors_[p.window] > tolerance) covered[i] = 1;
+std::vector<std::uint8_t> WindowSet::layPieces(const SurfaceTexture& texture, std::span<const std::uint8_t> only,
+                                               float reach) const {
+  std::vector<std::uint32_t> order(size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return errors_[a] != errors_[b] ? errors_[a] < errors_[b] : a < b;
   });
-  return covered;
+  std::vector<std::uint8_t> replaced(only.size(), 0);
+  for (const std::uint32_t w : order)
+    for (const NeighbourhoodPoint& m : members(w)) {
+      if (!only[m.index] || replaced[m.index] || m.displacement.squaredNorm() > reach * reach) continue;
+      take({w, m.displacement, m.turn}, texture, m.index);
+      replaced[m.index] = 1;
+    }
+  return replaced;
 }
 
 }  // namespace ebru

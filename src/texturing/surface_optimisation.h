@@ -25,12 +25,6 @@ struct SurfaceTexture {
   std::span<Mat2f> jacobian;  ///< exemplar texels per surface texel, in the points' frames
 };
 
-/// What pulls the texture towards the transported one [eq. 2]. Empty spans: nothing does (first frame).
-struct TransportedTexture {
-  std::span<const Texel> colour;   ///< c
-  std::span<const float> weight;   ///< lambda_k, relative to the sum of the windows' weights; negative: not to be kept
-};
-
 /// Neighbourhoods of one window size over one set of points, and their matches.
 class WindowSet {
  public:
@@ -50,20 +44,19 @@ class WindowSet {
   /// the others are searched. 0: all are searched.
   /// @param everywhere  search the whole exemplar, else only what continues the window's own match and its neighbours'
   void matchNearest(const SurfaceTexture& texture, float tolerance, bool everywhere);
-  /// Step 3: weighted means of the windows' proposals and the transported colours. Only points with a window, and of
-  /// those, if `only` is not empty, the ones it marks.
-  void average(const SurfaceTexture& texture, const TransportedTexture& transported,
-               std::span<const std::uint8_t> only) const;
-  /// Each point with a window takes the proposal nearest to its colour: colour, coordinate and Jacobian. With
-  /// `transported`, a point keeps its transported texture when no proposal is nearer by `keepMargin` (in contrasts).
+  /// Step 3: weighted means of the windows' proposals. Only points with a window, and of those, if `only` is not empty, the
+  /// ones it marks.
+  void average(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const;
+  /// Each point with a window takes the proposal nearest to its colour: colour, coordinate and Jacobian. Of those, if `only`
+  /// is not empty, the points it marks.
+  void choose(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const;
+  /// Whole pieces: the windows, best fit first, each take those of their points within `reach` (texels of the points' level)
+  /// that `only` marks and no other window took: colour, coordinate and Jacobian.
   /// @return per point, 1 where the texture was replaced
-  std::vector<std::uint8_t> choose(const SurfaceTexture& texture, const TransportedTexture& transported,
-                                   std::span<const std::uint8_t> only, float keepMargin) const;
+  std::vector<std::uint8_t> layPieces(const SurfaceTexture& texture, std::span<const std::uint8_t> only, float reach) const;
 
   /// Root mean square distance of each window to its match, relative to the exemplar's contrast.
   std::span<const float> errors() const { return errors_; }
-  /// Per point: 1 if a window with an error above `tolerance` covers it.
-  std::vector<std::uint8_t> coveredByPoorWindow(float tolerance) const;
 
  private:
   struct Proposal {

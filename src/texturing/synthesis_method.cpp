@@ -11,6 +11,7 @@
 #include "surface/point_index.h"
 #include "surface/poisson_sampling.h"
 #include "texturing/chart_field.h"
+#include "texturing/seam_exchange.h"
 #include "texturing/surface_optimisation.h"
 #include "texturing/texture_transport.h"
 
@@ -22,8 +23,11 @@ constexpr float graphReach = 1.9f;       ///< of the 1-ring, in Poisson spacings
 constexpr int ringSize = 10;
 
 constexpr float goodFit = 0.15f;         ///< a window that fits this well (in contrasts) is not searched again
-constexpr float poorFit = 0.3f;          ///< a transported window that fits worse is synthesised anew
-constexpr float keepMargin = 0.0f;       ///< how much nearer to the optimum than the transported texture a new one must be
+constexpr float wornDistortion = 1.5f;   ///< texture that is stretched more is replaced,
+constexpr float staleDistortion = 1.25f; ///< and with it what is stretched this much
+constexpr float pieceReachTexels = 24.0f;///< around it; the radius of a piece, too
+constexpr int exchangeSweeps = 6;
+constexpr int bandRings = 5;             ///< healed on each side of a seam
 constexpr float transportStrength = 0.2f;  ///< lambda of eq. 2 where the texture has its usual gradient
 /// The transported texture loses its pull between these distortions: what is stretched should not be kept.
 constexpr float trustedDistortion = 1.2f, distrustedDistortion = 1.6f;
@@ -100,6 +104,7 @@ class SynthesisMethod : public TextureMethod {
  public:
   SynthesisMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
       : texelWorld_(static_cast<float>(options.texel_size)),
+        iterations_(options.iterations),
         seed_(seed),
         times_(times),
         exemplar_(std::make_shared<Exemplar>(options.exemplar, options.height)) {
@@ -142,6 +147,7 @@ class SynthesisMethod : public TextureMethod {
   }
 
   float texelWorld_;
+  int iterations_;  ///< rounds of optimisation per window size in later frames
   std::uint64_t seed_;
   PhaseTimes* times_;
   std::shared_ptr<const Exemplar> exemplar_;
@@ -233,9 +239,9 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
     const int iterations = coarsest ? 6 : wide ? 3 : 2;
     for (int i = 0; i < iterations; ++i) {
       windows.matchNearest(view.texture, goodFit, i == 0 || coarsest);
-      windows.average(view.texture, {}, {});
+      windows.average(view.texture, {});
     }
-    windows.choose(view.texture, {}, {}, 0.0f);
+    windows.choose(view.texture, {});
   }
 }
 
@@ -259,39 +265,68 @@ void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
   publish(std::move(particles));
 }
 
+/// Points to synthesise anew: those whose chart is worn out, and around them what is stale.
+std::vector<std::uint8_t> wornRegion(const TextureParticles& particles, const std::vector<ParticleFate>& fates,
+                                     const Exemplar& exemplar, float reachWorld) {
+  std::vector<float> wear(particles.size(), 0.0f);
+  parallelFor(wear.size(), 1024, [&](std::size_t i) {
+    if (fates[i] == ParticleFate::still) return;
+    const Vec2f& st = particles.st[i];
+    const bool inside = st.x() >= 0.0f && st.y() >= 0.0f && st.x() <= static_cast<float>(exemplar.width()) &&
+                        st.y() <= static_cast<float>(exemplar.height());
+    wear[i] = inside && fates[i] != ParticleFate::orphan ? distortion(particles.jacobian[i]) : 1e9f;
+  });
+  // A few of the worn points stand for all of them.
+  CellGrid seeds(reachWorld, 1024);
+  const auto seedWithin = [&](std::size_t i, float radius) {
+    return seeds.anyNear(particles.position[i], radius, [&](std::uint32_t j) {
+      return (particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
+             particles.normal[j].dot(particles.normal[i]) > 0.0f;
+    });
+  };
+  for (std::size_t i = 0; i < wear.size(); ++i)
+    if (wear[i] > wornDistortion && !seedWithin(i, 0.25f * reachWorld))
+      seeds.insert(static_cast<std::uint32_t>(i), particles.position[i]);
+  std::vector<std::uint8_t> region(particles.size());
+  parallelFor(region.size(), 512, [&](std::size_t i) {
+    region[i] = wear[i] > staleDistortion && seedWithin(i, reachWorld);
+  });
+  return region;
+}
+
 void SynthesisMethod::refit(TextureParticles& particles, const std::vector<ParticleFate>& fates) {
-  std::vector<std::uint8_t> active(particles.size());
-  for (std::size_t i = 0; i < active.size(); ++i) active[i] = fates[i] != ParticleFate::still;
-  if (std::find(active.begin(), active.end(), 1) == active.end()) return;
   parallelFor(particles.size(), 1024, [&](std::size_t i) {
     if (fates[i] != ParticleFate::orphan) return;
     layPiece(*exemplar_, texelWorld_, seed_, particles, i);
     particles.colour[i] = exemplar_->sample(0, particles.st[i]);
   });
+  const auto any = [](const std::vector<std::uint8_t>& marks) { return std::find(marks.begin(), marks.end(), 1) != marks.end(); };
+  const std::vector<std::uint8_t> region = wornRegion(particles, fates, *exemplar_, pieceReachTexels * texelWorld_);
+  if (iterations_ == 0 || !any(region)) return;
   LevelView view = firstPoints(particles, particles.size());
   const PointGraph graph = ringGraph(view.points, texelWorld_);
   const std::vector<Texel> colour(particles.colour);
   const std::vector<float> weight = transportWeights(particles, fates, *exemplar_, graph);
-  const TransportedTexture transported{colour, weight};
-  // Windows of 34 texels first: only windows larger than a feature see that a stretched feature is not one of the
-  // exemplar's.
-  std::vector<const NeighbourhoodSearch*> passes;
-  if (wide_.size() > 1) passes.push_back(&wide_[1]);
-  passes.insert(passes.end(), {&wide_[0], &narrow_[0]});
-  for (const NeighbourhoodSearch* search : passes) {
-    WindowSet windows(view.points, graph, *search, *exemplar_, 0, texelWorld_, 0.25f, active, view.texture.jacobian);
-    if (windows.size() == 0) return;
-    windows.matchOwnCharts(view.texture, poorFit);
-    std::vector<std::uint8_t> poor = windows.coveredByPoorWindow(poorFit);
-    for (std::size_t i = 0; i < poor.size(); ++i) poor[i] &= active[i];  // what is still stays as it is
-    if (std::find(poor.begin(), poor.end(), 1) == poor.end()) continue;
-    for (int i = 0; i < 2; ++i) {
-      windows.matchNearest(view.texture, poorFit, i == 0);
-      windows.average(view.texture, transported, poor);
+  // Only windows larger than a feature see that a stretched feature is not one of the exemplar's.
+  const NeighbourhoodSearch& large = wide_[std::min<std::size_t>(1, wide_.size() - 1)];
+  WindowSet pieces(view.points, graph, large, *exemplar_, 0, texelWorld_, 0.25f, region, view.texture.jacobian);
+  pieces.matchOwnCharts(view.texture, goodFit);
+  pieces.matchNearest(view.texture, goodFit, true);
+  const std::vector<std::uint8_t> replaced = pieces.layPieces(view.texture, region, pieceReachTexels);
+  exchangeCharts(view.points, graph, *exemplar_, texelWorld_, region, {colour, weight}, exchangeSweeps, view.texture);
+  for (std::size_t i = 0; i < replaced.size(); ++i)
+    if (replaced[i]) particles.age[i] = 0.0f;
+
+  const std::vector<std::uint8_t> band = seamBand(view.points, graph, texelWorld_, region, bandRings, view.texture);
+  if (!any(band)) return;
+  for (const NeighbourhoodSearch* search : {&wide_[0], &narrow_[0]}) {
+    WindowSet windows(view.points, graph, *search, *exemplar_, 0, texelWorld_, 0.5f, band, view.texture.jacobian);
+    windows.matchOwnCharts(view.texture, goodFit);
+    for (int i = 0; i < iterations_; ++i) {
+      windows.matchNearest(view.texture, goodFit, i == 0);
+      windows.average(view.texture, band);
     }
-    const std::vector<std::uint8_t> replaced = windows.choose(view.texture, transported, poor, keepMargin);
-    for (std::size_t i = 0; i < replaced.size(); ++i)
-      if (replaced[i]) particles.age[i] = 0.0f;
+    windows.choose(view.texture, band);
   }
 }
 

@@ -21,6 +21,12 @@ OptionFields fields(TextureOptions& o) {
        .help = "metres of surface per exemplar texel",
        .lower = 1e-9,
        .upper = 1e6},
+      {.key = "iterations",
+       .target = &o.iterations,
+       .help = "rounds of optimisation per window size after the first frame; 0: the texture is transported only "
+               "(method synthesis)",
+       .lower = 0,
+       .upper = 100},
   };
 }
 

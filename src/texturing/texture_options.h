@@ -12,6 +12,7 @@ struct TextureOptions {
   std::string exemplar;
   std::string height;
   double texel_size = 0.005;
+  int iterations = 2;
 };
 
 OptionFields fields(TextureOptions& options);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <filesystem>
 #include <functional>
 
@@ -243,6 +245,19 @@ TEST_F(ExemplarFile, HeightOfAnotherSizeNamesBoth) {
 
 TEST_F(ExemplarFile, MissingIsAnInputError) {
   EXPECT_TRUE(contains(inputError([&] { Exemplar(folder_ / "nowhere.png", {}); }), "nowhere.png"));
+}
+
+TEST(Exemplar, FootprintsAreMeans) {
+  std::vector<Texel> texels;
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 128; ++x) texels.push_back(Texel::Constant((x + y) % 2 == 0 ? 1.0f : 0.0f));
+  const Exemplar checks(128, 128, std::move(texels));
+  const Vec2f uv(60.5f, 40.5f);
+  for (const float width : {0.0f, 0.7f, 1.0f})
+    EXPECT_EQ(checks.sampleFiltered(uv, width)[0], checks.sample(0, uv)[0]) << width;
+  // Half of the difference to the mean is left half way between two levels.
+  EXPECT_NEAR(checks.sampleFiltered(uv, std::sqrt(2.0f))[0], 0.5f * (1.0f + 0.5f), 1e-3f);
+  for (const float width : {2.0f, 3.3f, 4.0f, 1e6f}) EXPECT_NEAR(checks.sampleFiltered(uv, width)[0], 0.5f, 1e-3f) << width;
 }
 
 }  // namespace

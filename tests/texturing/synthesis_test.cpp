@@ -107,5 +107,42 @@ TEST(Synthesis, FirstFrameIsMadeOfTheExemplarsWindows) {
   EXPECT_LT(synthesised, 0.35 * random) << "random order: " << random;
 }
 
+/// Ages of the particles in the middle of a slab's top after five frames of shear, which stretch by 1.55.
+std::vector<float> agesInShear(int iterations) {
+  const test::Folder folder;
+  TextureOptions options;
+  options.method = "synthesis";
+  options.texel_size = 0.04;
+  options.iterations = iterations;
+  options.exemplar = test::writeExemplar(folder / "discs.png", exemplarSize, test::discs).string();
+  const auto shear = [](const Vec3f& p) { return Vec3f(0.18f * p.y(), 0.0f, 0.0f); };
+  const std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 1, nullptr);
+  auto from = test::slab(1, shear);
+  method->start(*from);
+  for (int f = 2; f <= 6; ++f) {
+    auto to = test::slab(f, shear);
+    method->advance(*from, *to);
+    from = std::move(to);
+  }
+  test::stateOf(*method, folder / "state");
+  TextureParticles particles;
+  particles.load(StateReader(folder / "state", "test"));
+  std::vector<float> ages;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (particles.normal[i].z() > 0.9f && particles.position[i].head<2>().cwiseAbs().maxCoeff() < 0.5f)
+      ages.push_back(particles.age[i]);
+  return ages;
+}
+
+TEST(Synthesis, ReplacesWhatShearWearsOutUnlessItOnlyTransports) {
+  const auto fresh = [](const std::vector<float>& ages) {
+    return static_cast<double>(std::count(ages.begin(), ages.end(), 0.0f)) / static_cast<double>(ages.size());
+  };
+  const std::vector<float> replaced = agesInShear(2), transported = agesInShear(0);
+  EXPECT_GT(fresh(replaced), 0.02);
+  EXPECT_LT(fresh(replaced), 0.7) << "what still looks right is left alone";
+  EXPECT_EQ(fresh(transported), 0.0);
+}
+
 }  // namespace
 }  // namespace ebru
