@@ -18,19 +18,27 @@
 namespace ebru {
 namespace {
 
-constexpr int maxLevels = 3;             ///< "we use three levels of hierarchy" [Kwatra 2007, sec. 4.2]
-constexpr float graphReach = 1.9f;       ///< of the 1-ring, in Poisson spacings
+constexpr int maxLevels = 3;               ///< "we use three levels of hierarchy" [Kwatra 2007, sec. 4.2]
+constexpr float graphReach = 1.9f;         ///< of the 1-ring, in Poisson spacings
 constexpr int ringSize = 10;
 
-constexpr float goodFit = 0.15f;         ///< a window that fits this well (in contrasts) is not searched again
-constexpr float wornDistortion = 1.5f;   ///< texture that is stretched more is replaced,
-constexpr float staleDistortion = 1.25f; ///< and with it what is stretched this much
-constexpr float pieceReachTexels = 24.0f;///< around it; the radius of a piece, too
+constexpr float goodFit = 0.15f;           ///< a window that fits this well (in contrasts) is not searched again
+constexpr float wornDistortion = 1.5f;     ///< texture that is stretched more is replaced,
+constexpr float staleDistortion = 1.25f;   ///< and with it what is stretched this much
+constexpr float pieceReachTexels = 24.0f;  ///< around it; the radius of a piece, too
 constexpr int exchangeSweeps = 6;
-constexpr int bandRings = 5;             ///< healed on each side of a seam
+constexpr int bandRings = 5;               ///< healed on each side of a seam
 constexpr float transportStrength = 0.2f;  ///< lambda of eq. 2 where the texture has its usual gradient
 /// The transported texture loses its pull between these distortions: what is stretched should not be kept.
 constexpr float trustedDistortion = 1.2f, distrustedDistortion = 1.6f;
+
+/// The chart shows the exemplar here: it was not guessed and has not run off the edge.
+bool holds(const TextureParticles& particles, const std::vector<ParticleFate>& fates, const Exemplar& exemplar,
+           std::size_t i) {
+  const Vec2f& st = particles.st[i];
+  return fates[i] != ParticleFate::orphan && st.x() >= 0.0f && st.y() >= 0.0f &&
+         st.x() <= static_cast<float>(exemplar.width()) && st.y() <= static_cast<float>(exemplar.height());
+}
 
 /// lambda_k: "a larger weight is given to the transported texture color at a point that has greater color gradient in its
 /// vicinity" [Kwatra 2007, sec. 5.2]; saturates at twice `transportStrength`. Negative where the transported texture is
@@ -38,12 +46,6 @@ constexpr float trustedDistortion = 1.2f, distrustedDistortion = 1.6f;
 std::vector<float> transportWeights(const TextureParticles& particles, const std::vector<ParticleFate>& fates,
                                     const Exemplar& exemplar, const PointGraph& graph) {
   const std::vector<Texel>& colour = particles.colour;
-  const auto trusted = [&](std::size_t i) {
-    const Vec2f& st = particles.st[i];
-    const bool inside = st.x() >= 0.0f && st.y() >= 0.0f && st.x() <= static_cast<float>(exemplar.width()) &&
-                        st.y() <= static_cast<float>(exemplar.height());
-    return inside && fates[i] != ParticleFate::orphan;
-  };
   std::vector<float> gradient(colour.size(), 0.0f);
   parallelFor(colour.size(), 1024, [&](std::size_t i) {
     const auto ring = graph.of(static_cast<std::uint32_t>(i));
@@ -58,7 +60,7 @@ std::vector<float> transportWeights(const TextureParticles& particles, const std
     const float trust = (distrustedDistortion - distortion(particles.jacobian[i])) /
                         (distrustedDistortion - trustedDistortion);
     const float lambda = 2.0f * transportStrength * gradient[i] / (gradient[i] + usual + 1e-6f);
-    gradient[i] = trust > 0.0f && trusted(i) ? lambda * std::min(trust, 1.0f) : -1.0f;
+    gradient[i] = trust > 0.0f && holds(particles, fates, exemplar, i) ? lambda * std::min(trust, 1.0f) : -1.0f;
   });
   return gradient;
 }
@@ -271,10 +273,7 @@ std::vector<std::uint8_t> wornRegion(const TextureParticles& particles, const st
   std::vector<float> wear(particles.size(), 0.0f);
   parallelFor(wear.size(), 1024, [&](std::size_t i) {
     if (fates[i] == ParticleFate::still) return;
-    const Vec2f& st = particles.st[i];
-    const bool inside = st.x() >= 0.0f && st.y() >= 0.0f && st.x() <= static_cast<float>(exemplar.width()) &&
-                        st.y() <= static_cast<float>(exemplar.height());
-    wear[i] = inside && fates[i] != ParticleFate::orphan ? distortion(particles.jacobian[i]) : 1e9f;
+    wear[i] = holds(particles, fates, exemplar, i) ? distortion(particles.jacobian[i]) : 1e9f;
   });
   // A few of the worn points stand for all of them.
   CellGrid seeds(reachWorld, 1024);
