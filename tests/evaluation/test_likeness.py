@@ -8,6 +8,7 @@ from checks import *
 from evaluation import command as commands
 from evaluation import shot
 from sequences import STRETCH
+from support import render
 
 VARIANTS = ("exact", "blurred", "layers", "stretched", "pieces")
 
@@ -26,8 +27,41 @@ def test_the_exemplar_itself(folder):
     missing_because(result, ids("flow_", "warp_", "popping", "still", "motion_second"), "two consecutive frames")
 
 
+SYNTHESISED = """[shot]
+name = "synthesised"
+[fluid]
+source = "procedural"
+scene = "translation"
+shape = "box"
+shift = [0, 0, 0]
+[texture]
+method = "synthesis"
+exemplar = "{exemplar}"
+texel_size = 0.005
+[camera]
+projection = "orthographic"
+orthographic_height = 0.7
+position = [0, 0, 2]
+target = [0, 0, 0]
+up = [0, 1, 0]
+size = [220, 155]
+[render]
+spp = 1
+"""
+
+
+def synthesised(folder, exemplar):
+    """Energy ratio of what ebru's synthesis makes of the exemplar on the flat top of a box, a pixel 0.9 texels wide."""
+    shot_file = folder / "synthesised.toml"
+    shot_file.write_text(SYNTHESISED.format(exemplar=exemplar))
+    render(shot_file, folder / "synthesised")
+    paths = {1: folder / "synthesised/synthesised.0001.exr"}
+    return evaluate(paths, exemplar, side=21, windows=60)["summary"]["energy_ratio"]
+
+
 def test_order_of_likeness(folder):
-    """One sequence, another fault in each frame; numbers with gaps, so that frames are judged alone."""
+    """One sequence, another fault in each frame; numbers with gaps, so that frames are judged alone. Between the exact plane
+    and the blurred one comes a real synthesis."""
     scene, exemplar = scene_of(folder, "leaf_litter", crop=192, width=176, height=144, shift=(0.7, 0.4))
     paths = {}
     for i, texture in enumerate(VARIANTS):
@@ -36,6 +70,7 @@ def test_order_of_likeness(folder):
     found = {texture: row(result, 1 + 2 * i) for i, texture in enumerate(VARIANTS)}
 
     energies = [found[texture]["energy_ratio"] for texture in ("exact", "blurred", "layers", "stretched")]
+    energies.insert(1, synthesised(folder, exemplar))
     assert energies == sorted(energies), energies
     near(found["exact"], "energy_ratio", 1, 0.15)
     above(found["blurred"], "energy_ratio", 1.2)
