@@ -22,6 +22,7 @@ requirements.provide()
 
 from evaluation import command, comparison_report, frames, report, sequence, shot, terminal_table
 from evaluation.errors import UsageError
+from evaluation.frame_item import item_of
 
 CORES_PER_RENDER = 4  # as many as one render keeps busy
 STRIP_FRAMES = 8
@@ -84,7 +85,7 @@ def strip(paths):
     numbers = sorted(paths)
     count = min(STRIP_FRAMES, len(numbers))
     chosen = [numbers[round(i * (len(numbers) - 1) / max(1, count - 1))] for i in range(count)]
-    return [(n, sequence.picture_of(frames.read(paths[n], n))["beauty"]) for n in chosen]
+    return [(n, item_of(frames.read(paths[n], n))["beauty"]) for n in chosen]
 
 
 def main():

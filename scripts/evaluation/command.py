@@ -7,8 +7,7 @@ import sys
 import time
 
 from evaluation import exemplar as exemplars
-from evaluation import frames, sequence
-from evaluation import shot as shots
+from evaluation import sequence
 from evaluation.errors import InputError, UsageError
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -46,7 +45,7 @@ def find_shot(name):
     for path in (pathlib.Path(name), ROOT / name, ROOT / "scenes" / f"{name}.toml"):
         if path.is_file():
             return path
-    raise InputError(f"{name}: no such shot file; name one, or a shot of scenes/")
+    raise UsageError(f"{name}: no such shot file; name one, or a shot of scenes/")
 
 
 def settings_of(arguments, shot=None):
@@ -85,10 +84,7 @@ def run(main):
         print(f"{pathlib.Path(sys.argv[0]).name}: error: {e}", file=sys.stderr)
         sys.exit(2 if isinstance(e, UsageError) else 3)
     except OSError as e:
-        print(f"{pathlib.Path(sys.argv[0]).name}: error: {e.filename}: {e.strerror}", file=sys.stderr)
+        print(f"{pathlib.Path(sys.argv[0]).name}: error: {e.filename or 'output'}: {e.strerror or e}", file=sys.stderr)
         sys.exit(4)
     except KeyboardInterrupt:
         sys.exit(130)
-
-
-__all__ = ["Progress", "add_metric_arguments", "find_shot", "frames", "run", "settings_of", "shots", "write_json"]

@@ -1,6 +1,6 @@
 """What the reports show of a frame: its layers, its motion and its errors as pictures, and the keys to their colours.
 
-An `item` is {"frame": int, "beauty", "albedo": picture or None, "forward", "estimated": flow or None, "mask": H x W
+An `item` (frame_item.py) is {"frame": int, "beauty", "albedo": picture or None, "forward", "estimated": flow or None, "mask": H x W
 bool, "warp": H x W luma change along the motion in sigma of the exemplar, NaN where unmatched, or None}. Pictures and
 flows are described in drawing.py; estimated flow comes only with forward.
 """

@@ -67,10 +67,13 @@ def power(cut):
     return np.array([spectra[ring == k].mean() for k in SPECTRUM_BINS])
 
 
+def decibels(power):
+    return 10 * np.log10(power + 1e-12)
+
+
 def spectrum_difference(picture, exemplar):
     """@param picture, exemplar  powers  @return RMS difference in dB"""
-    tiny = 1e-12
-    return float(np.sqrt(np.mean((10 * np.log10((picture + tiny) / (exemplar + tiny))) ** 2)))
+    return float(np.sqrt(np.mean((decibels(picture) - decibels(exemplar)) ** 2)))
 
 
 def contrast(frame, exemplar):

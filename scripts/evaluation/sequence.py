@@ -1,24 +1,22 @@
-"""All figures of a sequence: frame by frame in parallel processes, then summed up."""
+"""All figures of a sequence, frame by frame in parallel processes; summing.py makes the summary."""
 
 import dataclasses
 import functools
-import math
 import multiprocessing
 import os
 
 import cv2
 import numpy as np
 
-from evaluation import coherence, frames, likeness, masks, metrics, motion, optical_flow, windows
+from evaluation import coherence, frames, likeness, masks, metrics, motion, optical_flow, summing, windows
 from evaluation.errors import InputError, NotComputed
 from evaluation.exemplar import Exemplar
+from evaluation.frame_item import item_of
 from evaluation.window_search import WindowSearch
 
 HANDEDNESS_WINDOWS = 40
-FLOOR_WINDOWS = 256
 SPECTRUM_WINDOWS = 24  # per frame
 MIN_SPECTRUM_WINDOWS = 4
-PICTURE_WIDTH = 960
 PICTURE_FRAMES = 3
 
 
@@ -125,6 +123,7 @@ def _begin(run):
     _run = run
     _read.cache_clear()
     cv2.setNumThreads(1)
+    np.seterr(over="ignore", invalid="ignore")  # pixels that are not finite are counted and left out
 
 
 def _measure(number):
@@ -143,7 +142,7 @@ def _measure(number):
     estimated = difference = None
     if number + 1 in _run.paths:
         estimated, difference = _measure_pair(frame, _read(number + 1), figures)
-    pictures = picture_of(frame, estimated, difference) if number in _run.shown else None
+    pictures = item_of(frame, estimated, difference) if number in _run.shown else None
     return figures.values, figures.reasons, pictures
 
 
@@ -178,29 +177,6 @@ def _measure_pair(frame, following, figures):
         figures.add(["still_change"], lambda: coherence.still(kept["warp"], frame, matched))
         kept["warp"] = np.where(matched, kept["warp"], np.nan).astype(np.float32)
     return kept.get("flow"), kept.get("warp")
-
-
-def picture_of(frame, estimated=None, difference=None):
-    """What the reports show of a frame, at most PICTURE_WIDTH wide."""
-    stride = max(1, math.ceil(frame.width / PICTURE_WIDTH))
-    small = np.s_[::stride, ::stride]
-
-    def colours(layer, names="RGB"):
-        channels = [f"{layer}.{c}" if layer else c for c in names]
-        if not frame.has(*channels):
-            return None
-        linear = np.nan_to_num(np.stack([frame.planes[c] for c in channels], axis=-1))[small]
-        return np.rint(255 * frames.encoded(linear)).astype(np.uint8)
-
-    return {
-        "frame": frame.number,
-        "beauty": colours(""),
-        "albedo": colours("albedo"),
-        "forward": np.nan_to_num(frame.motion("forward"))[small] if frame.has("forward.u", "forward.v") else None,
-        "estimated": None if estimated is None else estimated[small],
-        "mask": (frame.fluid if frame.has("texture.mask") else np.ones((frame.height, frame.width), bool))[small],
-        "warp": None if difference is None else difference[small],
-    }
 
 
 def _mirrored(settings, search, paths):
@@ -248,38 +224,14 @@ def evaluate(paths, settings, progress=lambda done, total: None):
         for done, measured in enumerate(pool.imap(_measure, numbers, chunk), 1):
             found.append(measured)
             progress(done, len(numbers))
-    first = _read(numbers[0])
-    result = _sum_up(found, settings, first)
+    result = _described(_read(numbers[0]), settings)
+    result.update(summing.sum_up([values for values, _, _ in found], [reasons for _, reasons, _ in found], settings.exemplar,
+                                 run.search, settings.seed))
     return result, [pictures for _, _, pictures in found if pictures]
 
 
-def _sum_up(found, settings, first):
-    rows, reasons = [values for values, _, _ in found], {}
-    for _, missing, _ in found:
-        for name, reason in missing.items():
-            reasons.setdefault(name, reason)
-    spectrum = _likeness_over_all(rows, settings, reasons)
-    summary = {}
-    for name, metric in metrics.METRICS.items():
-        values = [row[name] for row in rows if row.get(name) is not None]
-        if not values:
-            summary[name] = summary.get(name)
-            continue
-        reasons.pop(name, None)
-        if name not in ("cover", "spectrum_db"):  # of all windows together
-            total = name in ("holes", "not_finite")
-            summary[name] = sum(values) if total else float(np.mean(values))
-        if metric.worst in ("max", "min"):
-            summary[f"{name}_{metric.worst}"] = max(values) if metric.worst == "max" else min(values)
-    summary.update(_run_totals(rows, settings, spectrum))
-    for name, metric in metrics.METRICS.items():
-        if summary.get(name) is None:
-            why = "needs two consecutive frames" if metric.pair else "no closed form" if "exact" in name else "no data"
-            reasons.setdefault(name, why)
-    clean = [{k: v for k, v in row.items() if not k.startswith("_")} for row in rows]
-    for row in clean:
-        for name in metrics.METRICS:
-            row.setdefault(name, None)
+def _described(first, settings):
+    """@return what the report says of the run"""
     return {
         "name": first.attributes.get("ebru:shot", first.path.name.rsplit(".", 2)[0]),
         "method": first.attributes.get("ebru:method"),
@@ -292,54 +244,5 @@ def _sum_up(found, settings, first):
         "settings": {"layout": settings.layout, "colour": settings.colour, "flow": settings.flow, "windows": settings.windows,
                      "side": settings.side, "seed": settings.seed, "mirrored": _run.mirrored,
                      "sigma_exemplar": settings.exemplar.sigma if settings.exemplar else None},
-        "frames": clean,
-        "summary": summary,
-        "not_computed": {name: reason for name, reason in reasons.items() if summary.get(name) is None},
         "definitions": metrics.definitions(),
-        "spectrum": spectrum,
     }
-
-
-def _likeness_over_all(rows, settings, reasons):
-    """Adds to the rows what needs the exemplar's own figures at the sequence's pixel size.  @return the spectra"""
-    with_energy = [row for row in rows if "energy" in row]
-    if with_energy:
-        pixel_texels = float(np.mean(np.concatenate([row["_pixel_texels"] for row in with_energy])))
-        try:
-            reference = likeness.floor_windows(settings.exemplar, pixel_texels, settings.side, FLOOR_WINDOWS,
-                                               _random(settings, 0, 3))
-            floor = float(_run.search.nearest(reference)[0].mean() / settings.exemplar.sigma)
-            for row in with_energy:
-                row["energy_floor"] = floor
-                row["energy_ratio"] = row["energy"] / floor
-        except NotComputed as e:
-            reasons.update({"energy_floor": str(e), "energy_ratio": str(e)})
-    with_power = [row for row in rows if "_power" in row]
-    if not with_power:
-        return None
-    try:
-        pixel_texels = float(np.mean(np.concatenate([row["_power_pixel_texels"] for row in with_power])))
-        exemplar = _exemplar(settings)
-        reference = likeness.power(likeness.floor_windows(exemplar, pixel_texels, likeness.SPECTRUM_SIDE, FLOOR_WINDOWS,
-                                                          _random(settings, 0, 4)))
-    except NotComputed as e:
-        reasons["spectrum_db"] = str(e)
-        return None
-    for row in with_power:
-        row["spectrum_db"] = likeness.spectrum_difference(row["_power"], reference)
-    mean = np.mean([row["_power"] for row in with_power], axis=0)
-    in_db = lambda power: [float(v) for v in 10 * np.log10(power + 1e-12)]
-    return {"cycles_per_texel": [float(v) for v in likeness.SPECTRUM_BINS / likeness.SPECTRUM_SIDE],
-            "exemplar_db": in_db(reference), "picture_db": in_db(mean)}
-
-
-def _run_totals(rows, settings, spectrum):
-    """Figures of all windows together; a mean over frames would hide or invent differences."""
-    totals = {}
-    places = [row["_places"] for row in rows if "_places" in row]
-    if places:
-        totals["cover"] = likeness.cover(np.concatenate(places), settings.exemplar)
-    if spectrum:
-        difference = np.array(spectrum["picture_db"]) - np.array(spectrum["exemplar_db"])
-        totals["spectrum_db"] = float(np.sqrt(np.mean(difference**2)))
-    return totals

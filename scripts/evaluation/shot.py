@@ -3,18 +3,18 @@
 import pathlib
 import tomllib
 
-from evaluation.errors import InputError
+from evaluation.errors import UsageError
 
 
 def read(path):
-    """@return the tables of the shot, file names made absolute  @throw InputError"""
+    """@return the tables of the shot, file names made absolute  @throw UsageError"""
     path = pathlib.Path(path)
     try:
         tables = tomllib.loads(path.read_text())
     except OSError as e:
-        raise InputError(f"{path}: cannot be read ({e.strerror}); name a shot file") from None
+        raise UsageError(f"{path}: cannot be read ({e.strerror}); name a shot file") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as e:
-        raise InputError(f"{path}: got a file that is no TOML ({e}), expected a shot") from None
+        raise UsageError(f"{path}: got a file that is no TOML ({e}), expected a shot") from None
     if "exemplar" in tables.get("texture", {}):
         tables["texture"]["exemplar"] = str((path.parent / tables["texture"]["exemplar"]).resolve())
     tables.setdefault("shot", {}).setdefault("fps", 24.0)

@@ -49,7 +49,7 @@ class Exemplar {
   /// The same, with the derivatives per texel of that level.
   Texel sample(int level, const Vec2f& uv, Texel& du, Texel& dv) const;
 
-  /// The mean under a footprint `width` texels wide, from the two levels whose texels are next to that wide; up to a texel
+  /// The mean of the encoded texels under a footprint `width` texels wide, from the two levels whose texels are next to that wide; up to a texel
   /// it is sample(0, uv). @param uv  texels of level 0
   Texel sampleFiltered(const Vec2f& uv, float width) const;
 

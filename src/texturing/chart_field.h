@@ -11,7 +11,8 @@ namespace ebru {
 ///
 /// Each particle within 1.6 texels predicts the exemplar at st + J (p - x), plus what its colour differs from the
 /// exemplar at st; predictions are blended with weight (1 - d^2/r^2)^3. Where neighbours carry one chart all predictions
-/// agree and the picture has the exemplar's own resolution; where charts meet, the blend hides the particles' cells.
+/// agree and the picture has the exemplar's own resolution, filtered where a pixel is wider than a texel; where charts
+/// meet, the blend hides the particles' cells.
 /// Coordinate, id, age and distortion are the nearest particle's.
 class ChartField : public TextureField {
  public:

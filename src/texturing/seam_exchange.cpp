@@ -10,6 +10,7 @@
 namespace ebru {
 namespace {
 
+/// Of points that change at once, on what the others were before; at random, so that few of them are neighbours.
 constexpr int groups = 4;
 /// Charts that predict the same place within this many texels are one piece.
 constexpr float samePieceTexels = 0.35f;
@@ -66,56 +67,80 @@ class Charts {
 
 float squaredDifference(const Texel& a, const Texel& b) { return (a - b).square().sum(); }
 
+/// The best chart for one point, given those of its neighbours.
+class Exchange {
+ public:
+  Exchange(const OrientedPoints& points, const PointGraph& graph, const Exemplar& exemplar, float texelWorld,
+           const TransportedTexture& transported, const SurfaceTexture& texture)
+      : charts_(points, texture, texelWorld),
+        graph_(graph),
+        exemplar_(exemplar),
+        transported_(transported),
+        texture_(texture) {}
+
+  /// Its own chart, unless a neighbour's is cheaper by `margin`; ties go to the nearer neighbour.
+  Chart best(std::uint32_t i) const {
+    Chart best{texture_.st[i], texture_.jacobian[i]};
+    const auto ring = graph_.of(i);
+    if (!charts_.onSeam(i, ring)) return best;
+    float least = (1.0f - margin) * cost(i, best);
+    std::array<Vec2f, maxTried> tried;  // places the point was offered: neighbours of one piece offer the same
+    std::size_t count = 0;
+    tried[count++] = best.st;
+    for (const std::uint32_t j : ring) {
+      const Chart chart = charts_.continued(j, i);
+      const auto end = tried.begin() + static_cast<std::ptrdiff_t>(count);
+      if (std::any_of(tried.begin(), end, [&](const Vec2f& st) { return Charts::samePiece(st, chart.st); })) continue;
+      if (count < maxTried) tried[count++] = chart.st;
+      const float c = cost(i, chart);
+      if (c >= least) continue;
+      least = c;
+      best = chart;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t maxTried = 16;
+
+  float cost(std::uint32_t i, const Chart& chart) const {
+    const auto ring = graph_.of(i);
+    const Texel here = exemplar_.sample(0, chart.st);
+    float sum = 0.0f;
+    for (const std::uint32_t j : ring) {
+      const Vec2f theirs = charts_.placeAt(j, i);
+      if (Charts::samePiece(theirs, chart.st)) continue;
+      const Vec2f there = chart.st + chart.jacobian * charts_.local(i, j);
+      sum += squaredDifference(here, exemplar_.sample(0, theirs));
+      sum += squaredDifference(exemplar_.sample(0, there), texture_.colour[j]);
+    }
+    sum /= static_cast<float>(2 * ring.size());
+    if (transported_.weight[i] > 0.0f)
+      sum += transported_.weight[i] * squaredDifference(here, transported_.colour[i]);
+    return sum;
+  }
+
+  Charts charts_;
+  const PointGraph& graph_;
+  const Exemplar& exemplar_;
+  const TransportedTexture& transported_;
+  const SurfaceTexture& texture_;
+};
+
 }  // namespace
 
 void exchangeCharts(const OrientedPoints& points, const PointGraph& graph, const Exemplar& exemplar, float texelWorld,
                     std::span<const std::uint8_t> only, const TransportedTexture& transported, int sweeps,
                     const SurfaceTexture& texture) {
-  const Charts charts(points, texture, texelWorld);
+  const Exchange exchange(points, graph, exemplar, texelWorld, transported, texture);
   std::vector<std::uint32_t> members[groups];
   for (std::uint32_t i = 0; i < only.size(); ++i)
     if (only[i]) members[hashCombine(i, 0x5ea7u) % groups].push_back(i);
   std::vector<Chart> next;
-  const auto improve = [&](std::uint32_t i, Chart& best) {
-    best = {texture.st[i], texture.jacobian[i]};
-    const auto ring = graph.of(i);
-    if (!charts.onSeam(i, ring)) return;
-    const auto cost = [&](const Chart& chart) {
-      const Texel here = exemplar.sample(0, chart.st);
-      float sum = 0.0f;
-      for (std::uint32_t j : ring) {
-        const Vec2f theirs = charts.placeAt(j, i);
-        if (Charts::samePiece(theirs, chart.st)) continue;
-        sum += squaredDifference(here, exemplar.sample(0, theirs));
-        const Vec2f there = chart.st + chart.jacobian * charts.local(i, j);
-        sum += squaredDifference(exemplar.sample(0, there), texture.colour[j]);
-      }
-      sum /= static_cast<float>(2 * ring.size());
-      if (transported.weight[i] > 0.0f)
-        sum += transported.weight[i] * squaredDifference(here, transported.colour[i]);
-      return sum;
-    };
-    float least = (1.0f - margin) * cost(best);
-    std::array<Vec2f, 16> tried;
-    std::size_t count = 0;
-    tried[count++] = best.st;
-    for (std::uint32_t j : ring) {
-      const Chart chart = charts.continued(j, i);
-      bool known = false;
-      for (std::size_t k = 0; k < count; ++k)
-        known = known || Charts::samePiece(tried[k], chart.st);
-      if (known) continue;
-      if (count < tried.size()) tried[count++] = chart.st;
-      const float c = cost(chart);
-      if (c >= least) continue;
-      least = c;
-      best = chart;
-    }
-  };
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const std::vector<std::uint32_t>& group : members) {
       next.resize(group.size());
-      parallelFor(group.size(), 64, [&](std::size_t k) { improve(group[k], next[k]); });
+      parallelFor(group.size(), 64, [&](std::size_t k) { next[k] = exchange.best(group[k]); });
       parallelFor(group.size(), 1024, [&](std::size_t k) {
         const std::uint32_t i = group[k];
         if (next[k].st == texture.st[i]) return;

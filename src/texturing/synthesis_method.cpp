@@ -299,7 +299,9 @@ void SynthesisMethod::refit(TextureParticles& particles, const std::vector<Parti
     layPiece(*exemplar_, texelWorld_, seed_, particles, i);
     particles.colour[i] = exemplar_->sample(0, particles.st[i]);
   });
-  const auto any = [](const std::vector<std::uint8_t>& marks) { return std::find(marks.begin(), marks.end(), 1) != marks.end(); };
+  const auto any = [](const std::vector<std::uint8_t>& marks) {
+    return std::find(marks.begin(), marks.end(), 1) != marks.end();
+  };
   const std::vector<std::uint8_t> region = wornRegion(particles, fates, *exemplar_, pieceReachTexels * texelWorld_);
   if (iterations_ == 0 || !any(region)) return;
   LevelView view = firstPoints(particles, particles.size());

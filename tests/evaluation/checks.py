@@ -25,15 +25,15 @@ sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/cli")]
 import numpy as np
 
 from evaluation import exemplar as exemplars
-from evaluation import metrics, sequence
+from evaluation import metrics, sequence, summing
 from evaluation.errors import InputError
 from sequences import Scene, crop_exemplar, write
 from support import main
 
 # Windows of so many texels fit nowhere: no time goes into the search for them.
 NO_WINDOWS = 401
-# Enough for the tolerances here.
-FEWER = dict(FLOOR_WINDOWS=48, HANDEDNESS_WINDOWS=16)
+# Windows that are enough for the tolerances here.
+FLOOR_WINDOWS, HANDEDNESS_WINDOWS = 48, 16
 
 
 def scene_of(folder, name="pebbles", crop=128, **options):
@@ -54,7 +54,8 @@ def evaluate(paths, exemplar, side=NO_WINDOWS, windows=40, forget=True, **settin
         for function in vars(sequence).values():
             getattr(function, "cache_clear", lambda: None)()
     threads = types.SimpleNamespace(get_context=lambda kind: multiprocessing.dummy)
-    with unittest.mock.patch.multiple(sequence, multiprocessing=threads, **FEWER):
+    with (unittest.mock.patch.multiple(sequence, multiprocessing=threads, HANDEDNESS_WINDOWS=HANDEDNESS_WINDOWS),
+          unittest.mock.patch.object(summing, "FLOOR_WINDOWS", FLOOR_WINDOWS)):
         return sequence.evaluate(paths, settings)[0]
 
 

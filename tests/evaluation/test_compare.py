@@ -38,7 +38,7 @@ def test_mistakes(folder):
     shot = write_shot(folder)
     says(compare(shot, "--methods", "particles,synthesys", "--out", folder / "out", expect=2), "synthesys")
     says(compare(shot, "--methods", "particles,particles", "--out", folder / "out", expect=2), "--methods")
-    says(compare(folder / "nowhere.toml", "--methods", "particles", expect=3), "nowhere.toml")
+    says(compare(folder / "nowhere.toml", "--methods", "particles", expect=2), "nowhere.toml")
 
 
 if __name__ == "__main__":

@@ -171,19 +171,7 @@ TEST_P(EveryMethod, ConstantExemplarIsThatConstant) {
 INSTANTIATE_TEST_SUITE_P(Zoo, EveryMethod, ::testing::ValuesIn(test::methodNames()),
                          [](const auto& info) { return info.param; });
 
-class OnOneAnimal : public ::testing::TestWithParam<std::string> {
- protected:
-  std::unique_ptr<TextureMethod> started(const zoo::Fluid& fluid) {
-    TextureOptions options;
-    options.method = GetParam();
-    options.texel_size = test::texelFor(fluid);
-    options.exemplar = test::writeExemplar(folder_ / "discs.png", 48, test::discs).string();
-    std::unique_ptr<TextureMethod> m = makeTextureMethod(options, 7, nullptr);
-    m->start(*fluid.frames[0]);
-    return m;
-  }
-  const test::Folder folder_;
-};
+using OnOneAnimal = test::EachMethod;
 
 // A field that somebody holds stays that of its frame.
 TEST_P(OnOneAnimal, AHeldFieldDoesNotChange) {

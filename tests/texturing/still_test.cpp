@@ -8,24 +8,14 @@
 namespace ebru {
 namespace {
 
-class StillFluid : public ::testing::TestWithParam<std::string> {
- protected:
-  /// With so many particles that one added late would show.
-  std::unique_ptr<TextureMethod> started(const zoo::Fluid& fluid) {
-    TextureOptions options;
-    options.method = GetParam();
-    options.texel_size = test::texelFor(fluid, 5000.0);
-    options.exemplar = test::writeExemplar(folder_ / "discs.png", 48, test::discs).string();
-    std::unique_ptr<TextureMethod> m = makeTextureMethod(options, 7, nullptr);
-    m->start(*fluid.frames[0]);
-    return m;
-  }
-  const test::Folder folder_;
-};
+using StillFluid = test::EachMethod;
+
+/// So many that one added late would show.
+constexpr double particles = 5000.0;
 
 TEST_P(StillFluid, KeepsItsTexture) {
   const zoo::Fluid fluid = zoo::still();
-  const std::unique_ptr<TextureMethod> m = started(fluid);
+  const std::unique_ptr<TextureMethod> m = started(fluid, particles);
   const std::shared_ptr<const TextureField> first = m->field();
   const std::string bytes = test::stateOf(*m, folder_ / "a");
   for (std::size_t k = 1; k < fluid.frames.size(); ++k) {
@@ -66,7 +56,7 @@ zoo::Fluid halfStill() {
 
 TEST_P(StillFluid, KeepsItsTextureWhileAnotherPartMoves) {
   const zoo::Fluid fluid = halfStill();
-  const std::unique_ptr<TextureMethod> m = started(fluid);
+  const std::unique_ptr<TextureMethod> m = started(fluid, particles);
   const std::shared_ptr<const TextureField> first = m->field();
   for (std::size_t k = 1; k < fluid.frames.size(); ++k) {
     m->advance(*fluid.frames[k - 1], *fluid.frames[k]);

@@ -128,6 +128,21 @@ inline float texelFor(const zoo::Fluid& fluid, double wantedParticles = 1200.0) 
   return area > 0.0 ? static_cast<float>(spacing / 0.82) : 0.05f;
 }
 
+/// Tests of one method after another, on fluids of the zoo.
+class EachMethod : public ::testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<TextureMethod> started(const zoo::Fluid& fluid, double wantedParticles = 1200.0) {
+    TextureOptions options;
+    options.method = GetParam();
+    options.texel_size = texelFor(fluid, wantedParticles);
+    options.exemplar = writeExemplar(folder_ / "discs.png", 48, discs).string();
+    std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 7, nullptr);
+    method->start(*fluid.frames[0]);
+    return method;
+  }
+  const Folder folder_;
+};
+
 inline bool identical(const TextureSample& a, const TextureSample& b) {
   return a.valid == b.valid && a.colour == b.colour && a.st == b.st && a.id == b.id && a.age == b.age &&
          a.distortion == b.distortion && a.displacement == b.displacement && a.alpha == b.alpha;
