@@ -95,6 +95,7 @@ LoadedImage readImage(const std::filesystem::path& path, bool toLinear) {
   image.width = spec.width;
   image.height = spec.height;
   image.channels = spec.nchannels;
+  image.alphaChannel = spec.alpha_channel;
   image.data.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                     static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data.data()))

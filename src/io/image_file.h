@@ -10,6 +10,7 @@ namespace ebru {
 /// Pixels of an image file through OpenImageIO.
 struct LoadedImage {
   int width = 0, height = 0, channels = 0;
+  int alphaChannel = -1;    ///< -1 without one
   std::vector<float> data;  ///< width * height * channels, interleaved, row 0 at the top
 };
 
