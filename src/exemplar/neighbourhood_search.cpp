@@ -21,20 +21,44 @@ constexpr int treeStride = 2;
 using Raw = Eigen::Matrix<float, pixels * channels, 1>;
 using Projection = Eigen::Matrix<float, dimensions, pixels * channels>;
 
-/// The windows in the tree, numbered row by row.
-struct DescriptorCloud {
-  const std::vector<NeighbourhoodSearch::Descriptor>* descriptors;
-  int columns, rows;  ///< of all windows
+/// The windows of one tile.
+struct TileWindows {
+  int tile;
+  Vec2i origin;               ///< of the tile on the level
+  int columns, rows;          ///< of window centres
+  std::size_t first;          ///< of its descriptors
+  std::size_t firstInTree;
 
   int treeColumns() const { return (columns + treeStride - 1) / treeStride; }
   int treeRows() const { return (rows + treeStride - 1) / treeStride; }
-  Vec2i place(std::size_t i) const {
-    return treeStride * Vec2i(static_cast<int>(i) % treeColumns(), static_cast<int>(i) / treeColumns());
+  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  std::size_t index(int x, int y) const {
+    return first + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
   }
-  std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(treeColumns() * treeRows()); }
+};
+
+/// The windows in the tree, numbered tile by tile and row by row: in the order of their positions.
+struct DescriptorCloud {
+  const std::vector<NeighbourhoodSearch::Descriptor>* descriptors;
+  std::vector<TileWindows> tiles;
+
+  const TileWindows& tileOf(std::size_t i) const {
+    std::size_t t = 0;
+    while (t + 1 < tiles.size() && i >= tiles[t + 1].firstInTree) ++t;
+    return tiles[t];
+  }
+  static Vec2i place(const TileWindows& tile, std::size_t i) {
+    const int k = static_cast<int>(i - tile.firstInTree);
+    return treeStride * Vec2i(k % tile.treeColumns(), k / tile.treeColumns());
+  }
+  std::size_t kdtree_get_point_count() const {
+    const TileWindows& last = tiles.back();
+    return last.firstInTree + static_cast<std::size_t>(last.treeColumns() * last.treeRows());
+  }
   float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    const Vec2i at = place(i);
-    return (*descriptors)[static_cast<std::size_t>(at.y() * columns + at.x())][static_cast<Eigen::Index>(axis)];
+    const TileWindows& tile = tileOf(i);
+    const Vec2i at = place(tile, i);
+    return (*descriptors)[tile.index(at.x(), at.y())][static_cast<Eigen::Index>(axis)];
   }
   template <class Box>
   bool kdtree_get_bbox(Box&) const {
@@ -78,28 +102,44 @@ class NearestOne {
 struct NeighbourhoodSearch::Impl {
   const Exemplar& exemplar;
   int level, window, spacing, half;
-  int columns, rows;  ///< of window centres
   std::array<float, pixels> weights;
   Raw mean = Raw::Zero();
   Projection projection = Projection::Zero();
-  std::vector<Descriptor> descriptors;  ///< rows * columns
+  std::vector<Descriptor> descriptors;  ///< of all windows, tile by tile and row by row; none for the gaps
   DescriptorCloud cloud{};
   std::unique_ptr<Tree> tree;
 
   Impl(const Exemplar& e, int l, int w) : exemplar(e), level(l), window(w), spacing(w / 8), half(w / 2) {
-    columns = exemplar.width(level) - 2 * half;
-    rows = exemplar.height(level) - 2 * half;
+    numberWindows();
     computeWeights();
     analyse();
-    descriptors.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    parallelFor(static_cast<std::size_t>(rows), 1, [&](std::size_t y) {
-      for (int x = 0; x < columns; ++x)
-        descriptors[y * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x)] =
-            projection * (weighted(windowAt(x + half, static_cast<int>(y) + half)) - mean);
-    });
-    cloud = {&descriptors, columns, rows};
+    const TileWindows& last = cloud.tiles.back();
+    descriptors.resize(last.first + last.count());
+    for (const TileWindows& tile : cloud.tiles)
+      parallelFor(static_cast<std::size_t>(tile.rows), 1, [&](std::size_t y) {
+        for (int x = 0; x < tile.columns; ++x)
+          descriptors[tile.index(x, static_cast<int>(y))] =
+              projection * (weighted(windowAt(tile.tile, x + half, static_cast<int>(y) + half)) - mean);
+      });
     tree = std::make_unique<Tree>(dimensions, cloud,
                                   nanoflann::KDTreeSingleIndexAdaptorParams(8));
+  }
+
+  void numberWindows() {
+    cloud.descriptors = &descriptors;
+    std::size_t first = 0, firstInTree = 0;
+    for (int t = 0; t < exemplar.tileCount(); ++t) {
+      const Vec2i& size = exemplar.tileSize(t, level);
+      const TileWindows tile{t, exemplar.tileOrigin(t, level), size.x() - 2 * half, size.y() - 2 * half, first, firstInTree};
+      first += tile.count();
+      firstInTree += static_cast<std::size_t>(tile.treeColumns() * tile.treeRows());
+      cloud.tiles.push_back(tile);
+    }
+  }
+
+  /// The tile that a coordinate of the level belongs to.
+  const TileWindows& tileAt(const Vec2f& uv) const {
+    return cloud.tiles[static_cast<std::size_t>(exemplar.tileAt(uv * static_cast<float>(1 << level)))];
   }
 
   void computeWeights() {
@@ -112,17 +152,19 @@ struct NeighbourhoodSearch::Impl {
     for (float& w : weights) w /= sum;
   }
 
-  Window windowAt(int x, int y) const {
+  /// @param x, y  centre, in texels of the tile
+  Window windowAt(int tile, int x, int y) const {
+    const TexelPyramid& texels = exemplar.texels(tile);
+    const Vec2i& size = texels.size(level);
     Window result;
     for (int j = 0; j < raster; ++j)
       for (int i = 0; i < raster; ++i) {
         const int cx = x + (i - raster / 2) * spacing, cy = y + (j - raster / 2) * spacing;
-        Texel value = exemplar.texel(level, cx, cy);
+        Texel value = texels.texel(level, cx, cy);
         if (spacing == 2) {
           // The tent of width 2 that the same raster sees on a surface.
           const auto at = [&](int dx, int dy) {
-            return exemplar.texel(level, std::clamp(cx + dx, 0, exemplar.width(level) - 1),
-                                  std::clamp(cy + dy, 0, exemplar.height(level) - 1));
+            return texels.texel(level, std::clamp(cx + dx, 0, size.x() - 1), std::clamp(cy + dy, 0, size.y() - 1));
           };
           value = 0.25f * value + 0.125f * (at(-1, 0) + at(1, 0) + at(0, -1) + at(0, 1)) +
                   0.0625f * (at(-1, -1) + at(1, -1) + at(-1, 1) + at(1, 1));
@@ -142,14 +184,16 @@ struct NeighbourhoodSearch::Impl {
   /// Principal components of a fixed sample of the windows.
   void analyse() {
     constexpr int wanted = 3000;
-    const std::size_t total = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    const std::size_t total = cloud.tiles.back().first + cloud.tiles.back().count();
     const std::size_t count = std::min<std::size_t>(total, wanted);
     Eigen::MatrixXf samples(pixels * channels, static_cast<Eigen::Index>(count));
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = total <= wanted ? k : Random(17, 0, k).below(static_cast<std::uint32_t>(total));
-      samples.col(static_cast<Eigen::Index>(k)) =
-          weighted(windowAt(static_cast<int>(i % static_cast<std::size_t>(columns)) + half,
-                            static_cast<int>(i / static_cast<std::size_t>(columns)) + half));
+      auto tile = cloud.tiles.begin();
+      while (i >= tile->first + tile->count()) ++tile;
+      const auto x = static_cast<int>((i - tile->first) % static_cast<std::size_t>(tile->columns));
+      const auto y = static_cast<int>((i - tile->first) / static_cast<std::size_t>(tile->columns));
+      samples.col(static_cast<Eigen::Index>(k)) = weighted(windowAt(tile->tile, x + half, y + half));
     }
     mean = samples.rowwise().mean();
     samples.colwise() -= mean;
@@ -179,21 +223,25 @@ NeighbourhoodSearch::Match NeighbourhoodSearch::nearest(const Descriptor& query,
   parameters.eps = kdTreeEps;
   impl_->tree->findNeighbors(best, query.data(), parameters);
   if (best.size() == 0) return bound;
-  return {impl_->cloud.place(best.index()) + Vec2i::Constant(impl_->half), best.distance()};
+  const TileWindows& tile = impl_->cloud.tileOf(best.index());
+  return {tile.origin + DescriptorCloud::place(tile, best.index()) + Vec2i::Constant(impl_->half), best.distance()};
 }
 
 NeighbourhoodSearch::Match NeighbourhoodSearch::at(const Vec2i& texel, const Descriptor& query) const {
-  const int x = std::clamp(texel.x() - impl_->half, 0, impl_->columns - 1);
-  const int y = std::clamp(texel.y() - impl_->half, 0, impl_->rows - 1);
-  const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(impl_->columns) + static_cast<std::size_t>(x);
-  return {{x + impl_->half, y + impl_->half}, (impl_->descriptors[i] - query).squaredNorm()};
+  const TileWindows& tile = impl_->tileAt(texel.cast<float>() + Vec2f::Constant(0.5f));
+  const Vec2i corner = texel - tile.origin - Vec2i::Constant(impl_->half);
+  const int x = std::clamp(corner.x(), 0, tile.columns - 1);
+  const int y = std::clamp(corner.y(), 0, tile.rows - 1);
+  const Vec2i centre = tile.origin + Vec2i(x + impl_->half, y + impl_->half);
+  return {centre, (impl_->descriptors[tile.index(x, y)] - query).squaredNorm()};
 }
 
 Vec2f NeighbourhoodSearch::clampInside(const Vec2f& uv) const {
-  const float margin = static_cast<float>(impl_->half) + 0.5f;
-  const float w = static_cast<float>(impl_->exemplar.width(impl_->level));
-  const float h = static_cast<float>(impl_->exemplar.height(impl_->level));
-  return {std::clamp(uv.x(), margin, w - margin), std::clamp(uv.y(), margin, h - margin)};
+  const TileWindows& tile = impl_->tileAt(uv);
+  const Vec2f margin = Vec2f::Constant(static_cast<float>(impl_->half) + 0.5f);
+  const Vec2f first = tile.origin.cast<float>() + margin;
+  const Vec2f last = (tile.origin + impl_->exemplar.tileSize(tile.tile, impl_->level)).cast<float>() - margin;
+  return uv.cwiseMax(first).cwiseMin(last);
 }
 
 }  // namespace ebru

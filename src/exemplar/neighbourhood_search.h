@@ -13,7 +13,9 @@ namespace ebru {
 /// Nearest exemplar windows [Kwatra 2007, sec. 5.2 step 2].
 ///
 /// A window of w x w texels is compared on a raster of 9 x 9 pixels (for w = 17 every pixel is the mean of 2 x 2
-/// positions) with a Gaussian fall-off, reduced to `dimensions` principal components, and found through a kd-tree.
+/// positions) with a Gaussian fall-off, reduced to `dimensions` principal components, and found through a kd-tree. The
+/// windows of all images of the exemplar are in one tree; none reaches over the border of its image. Texels and coordinates
+/// are those of the exemplar's level, in the space that its images share.
 /// Const members are safe to call concurrently.
 class NeighbourhoodSearch {
  public:
@@ -44,11 +46,12 @@ class NeighbourhoodSearch {
   Descriptor describe(const Window& window) const;
   /// The window nearest to the query among every second one of every second row, by the kd-tree (approximately: a branch
   /// is left out when it cannot be much nearer),
-  /// or `bound` itself where nothing nearer than `bound.distanceSquared` is found; ties by position.
+  /// or `bound` itself where nothing nearer than `bound.distanceSquared` is found; ties by position: the first image, the first
+  /// row.
   Match nearest(const Descriptor& query, const Match& bound) const;
-  /// The distance of the window at a texel, which is moved inside first if its window would not fit.
+  /// The distance of the window at a texel, which is moved first, as `clampInside` does, if its window would not fit.
   Match at(const Vec2i& texel, const Descriptor& query) const;
-  /// Moves a centre so that its window lies inside the exemplar.
+  /// Moves a centre so that its window lies inside the image that the centre belongs to.
   Vec2f clampInside(const Vec2f& uv) const;
 
  private:

@@ -7,10 +7,12 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "exemplar/feature_size.h"
 #include "fluid/fluid_sequence.h"
 #include "fluid/velocity_check.h"
 #include "shot/frame_range.h"
 #include "shot/shot.h"
+#include "texturing/open_exemplar.h"
 
 namespace ebru {
 namespace {
@@ -40,6 +42,28 @@ bool isNumberedFile(const std::string& file, std::string& pattern, int& frame) {
   return true;
 }
 
+/// One line per image, and what they are together.
+std::string describe(const TextureOptions& options) {
+  const std::shared_ptr<const Exemplar> exemplar = openExemplar(options);
+  std::string maps = "colour";
+  const auto add = [&](const char* name, const std::vector<std::string>& files) {
+    if (!files.empty()) maps += fmt::format(", {}", name);
+  };
+  add("height", options.height);
+  add("roughness", options.roughness);
+  if (exemplar->hasAlpha()) maps += ", alpha";
+  add("emission", options.emission);
+  std::string text;
+  for (int tile = 0; tile < exemplar->tileCount(); ++tile)
+    text += fmt::format("exemplar: {}, {} x {} texels\n", options.exemplar[static_cast<std::size_t>(tile)],
+                        exemplar->tileSize(tile).x(), exemplar->tileSize(tile).y());
+  const AppearanceSpace& space = exemplar->space();
+  const std::string texels = space.isPlain() ? "synthesised as they are"
+                                             : fmt::format("synthesised from 4 components that have {:.1f} % of their variance",
+                                                           100.0f * space.varianceKept());
+  return text + fmt::format("  maps: {}; {}\n  features of about {:.0f} texels\n", maps, texels, featureSize(*exemplar));
+}
+
 Inspected inspectedShot(const InspectOptions& options) {
   const Shot shot = readShot(options.file, options.settings);
   Inspected inspected;
@@ -51,10 +75,10 @@ Inspected inspectedShot(const InspectOptions& options) {
   inspected.frames = {shot.shot.first_frame};
   inspected.introduction =
       fmt::format("shot {}: frames {} to {} at {:g} fps, seed {}\n"
-                  "texture: {} with {}, {:g} m per texel\n"
+                  "texture: {}, {:g} m per texel\n{}"
                   "picture: {} x {}, {} samples per pixel\n",
                   shot.shot.name, shot.shot.first_frame, shot.shot.last_frame, shot.shot.fps, shot.shot.seed,
-                  shot.texture.method, shot.texture.exemplar, shot.texture.texel_size, shot.scene.camera.size[0],
+                  shot.texture.method, shot.texture.texel_size, describe(shot.texture), shot.scene.camera.size[0],
                   shot.scene.camera.size[1], shot.scene.render.spp);
   return inspected;
 }

@@ -18,7 +18,9 @@ ChartField::ChartField(std::shared_ptr<const TextureParticles> particles, std::s
     : nearest_(std::move(particles), texelWorld), exemplar_(std::move(exemplar)) {
   const TextureParticles& p = nearest_.particles();
   residual_.resize(p.size());
-  parallelFor(p.size(), 1024, [&](std::size_t i) { residual_[i] = p.colour[i] - exemplar_->sample(0, p.st[i]); });
+  parallelFor(p.size(), 1024, [&](std::size_t i) { 
+    residual_[i] = exemplar_->space().unprojectDifference(p.colour[i] - exemplar_->sample(0, p.st[i]));
+  });
 }
 
 TextureSample ChartField::lookup(const SurfacePoint& point) const {
@@ -34,23 +36,24 @@ TextureSample ChartField::lookup(const SurfacePoint& point) const {
   };
   const float footprintTexels = point.footprintWorld / nearest_.texelWorld();
   Texel sum = Texel::Zero();
+  OtherMaps others = noOtherMaps;
   float weights = 0.0f;
   for (std::size_t k = 0; k < count; ++k) {
     const float falloff = std::max(0.0f, 1.0f - found[k].distanceSquared / (reach * reach));
     const float weight = falloff * falloff * falloff + 1e-12f;
     const std::size_t i = found[k].index;
     const float width = footprintTexels * std::sqrt(std::abs(particles.jacobian[i].determinant()));
-    sum += weight * (residual_[i] + exemplar_->sampleFiltered(chart(i), width));
+    const Vec2f place = chart(i);
+    sum += weight * (residual_[i] + exemplar_->sampleFiltered(place, width));
+    if (exemplar_->hasOtherMaps()) exemplar_->addOtherMaps(place, width, weight, others);
     weights += weight;
   }
-  const Texel texel = sum / weights;
+  for (Texel& other : others) other /= weights;
+  take(exemplar_->decode(sum / weights, others), sample);
   const std::size_t first = found[0].index;
-  const Vec2f st = chart(first);
-  sample.colour = linearColour(texel);
-  sample.displacement = texel[3];
-  sample.st = Vec2f(st.x() / static_cast<float>(exemplar_->width()), st.y() / static_cast<float>(exemplar_->height()))
-                  .cwiseMax(0.0f)
-                  .cwiseMin(1.0f);
+  const Exemplar::Place place = exemplar_->normalised(chart(first));
+  sample.st = place.st;
+  sample.exemplar = place.tile;
   sample.id = static_cast<float>(particles.id[first]);
   sample.age = particles.age[first];
   sample.distortion = distortion(particles.jacobian[first]);

@@ -9,8 +9,8 @@ namespace ebru {
 
 /// Colour at a surface point from the charts of the nearest particles.
 ///
-/// Each particle within 1.6 texels predicts the exemplar at st + J (p - x), plus what its colour differs from the
-/// exemplar at st; predictions are blended with weight (1 - d^2/r^2)^3. Where neighbours carry one chart all predictions
+/// Each particle within 1.6 texels predicts the exemplar's maps at st + J (p - x), colour and height with what its texel
+/// differs from the exemplar at st; predictions are blended with weight (1 - d^2/r^2)^3. Where neighbours carry one chart all predictions
 /// agree and the picture has the exemplar's own resolution, filtered where a pixel is wider than a texel; where charts
 /// meet, the blend hides the particles' cells.
 /// Coordinate, id, age and distortion are the nearest particle's.
@@ -23,7 +23,7 @@ class ChartField : public TextureField {
  private:
   NearestParticles nearest_;
   std::shared_ptr<const Exemplar> exemplar_;
-  std::vector<Texel> residual_;  ///< colour minus exemplar at st
+  std::vector<Texel> residual_;  ///< texel minus exemplar at st, as encoded colour and height
 };
 
 }  // namespace ebru

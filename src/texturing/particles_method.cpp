@@ -7,6 +7,7 @@
 #include "surface/orientation_field.h"
 #include "surface/poisson_sampling.h"
 #include "texturing/nearest_particles.h"
+#include "texturing/open_exemplar.h"
 #include "texturing/texture_transport.h"
 
 namespace ebru {
@@ -20,6 +21,7 @@ float wrap(float coordinate, int size) {
   return coordinate - period * std::floor(coordinate / period);
 }
 
+/// The exemplar's first image, repeated like tiles.
 class CoordinateField : public TextureField {
  public:
   CoordinateField(std::shared_ptr<const TextureParticles> particles, std::shared_ptr<const Exemplar> exemplar,
@@ -46,13 +48,13 @@ class CoordinateField : public TextureField {
     const std::size_t first = found[0].index;
     jacobian = particles.jacobian[first];
     st /= weights;
-    const Vec2f wrapped(wrap(st.x(), exemplar_->width()), wrap(st.y(), exemplar_->height()));
+    const Vec2i& period = exemplar_->tileSize(0);
+    const Vec2f wrapped(wrap(st.x(), period.x()), wrap(st.y(), period.y()));
     const float width = point.footprintWorld / nearest_.texelWorld() * std::sqrt(std::abs(jacobian.determinant()));
-    const Texel texel = exemplar_->sampleFiltered(wrapped, width);
-    sample.colour = linearColour(texel);
-    sample.displacement = texel[3];
-    sample.st = Vec2f(wrapped.x() / static_cast<float>(exemplar_->width()),
-                      wrapped.y() / static_cast<float>(exemplar_->height()));
+    OtherMaps others = noOtherMaps;
+    exemplar_->addOtherMaps(wrapped, width, 1.0f, others);
+    take(exemplar_->decode(exemplar_->sampleFiltered(wrapped, width), others), sample);
+    sample.st = exemplar_->normalised(wrapped).st;
     sample.id = static_cast<float>(particles.id[first]);
     sample.age = particles.age[first];
     sample.distortion = distortion(jacobian);
@@ -71,7 +73,7 @@ class ParticlesMethod : public TextureMethod {
       : texelWorld_(static_cast<float>(options.texel_size)),
         seed_(seed),
         times_(times),
-        exemplar_(std::make_shared<Exemplar>(options.exemplar, options.height)) {}
+        exemplar_(openExemplar(options)) {}
 
   void start(const FluidFrame& first) override {
     const PhaseTimer timer(times_, "sampling");

@@ -11,6 +11,7 @@
 #include "surface/point_index.h"
 #include "surface/poisson_sampling.h"
 #include "texturing/chart_field.h"
+#include "texturing/open_exemplar.h"
 #include "texturing/seam_exchange.h"
 #include "texturing/surface_optimisation.h"
 #include "texturing/texture_transport.h"
@@ -35,9 +36,7 @@ constexpr float trustedDistortion = 1.2f, distrustedDistortion = 1.6f;
 /// The chart shows the exemplar here: it was not guessed and has not run off the edge.
 bool holds(const TextureParticles& particles, const std::vector<ParticleFate>& fates, const Exemplar& exemplar,
            std::size_t i) {
-  const Vec2f& st = particles.st[i];
-  return fates[i] != ParticleFate::orphan && st.x() >= 0.0f && st.y() >= 0.0f &&
-         st.x() <= static_cast<float>(exemplar.width()) && st.y() <= static_cast<float>(exemplar.height());
+  return fates[i] != ParticleFate::orphan && exemplar.holds(particles.st[i]);
 }
 
 /// lambda_k: "a larger weight is given to the transported texture color at a point that has greater color gradient in its
@@ -66,19 +65,23 @@ std::vector<float> transportWeights(const TextureParticles& particles, const std
 }
 
 /// Charts to start from where there is no texture yet: pieces of half the exemplar's size in a box projection, each from a
-/// random place of it. Optimisation heals their seams and what the projection stretched.
+/// random place of it; of several images, half the size of the smallest, each from a random one. Optimisation heals their
+/// seams and what the projection stretched.
 void layPiece(const Exemplar& exemplar, float texelWorld, std::uint64_t seed, TextureParticles& particles,
               std::size_t i) {
   const Vec3f& normal = particles.normal[i];
   boxProjection(particles.position[i], normal, particles.orientation[i], texelWorld, particles.st[i],
                 particles.jacobian[i]);
-  const Vec2f piece(0.5f * static_cast<float>(exemplar.width()), 0.5f * static_cast<float>(exemplar.height()));
+  const Vec2f piece = 0.5f * exemplar.smallestSize().cast<float>();
   const Vec2i index = (particles.st[i].array() / piece.array()).floor().cast<int>().matrix();
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   const auto side = static_cast<std::uint64_t>(2 * axis + (normal[axis] < 0.0f));
   Random random(seed, side, hashCombine(static_cast<std::uint32_t>(index.x()), static_cast<std::uint32_t>(index.y())));
-  const Vec2f corner(random.uniform() * piece.x(), random.uniform() * piece.y());
+  const Vec2f share(random.uniform(), random.uniform());
+  const int tile = static_cast<int>(random.below(static_cast<std::uint32_t>(exemplar.tileCount())));
+  const Vec2f room = exemplar.tileSize(tile).cast<float>() - piece;
+  const Vec2f corner = exemplar.tileOrigin(tile).cast<float>() + share.cwiseProduct(room);
   particles.st[i] += corner - (index.cast<float>().array() * piece.array()).matrix();
 }
 
@@ -109,7 +112,7 @@ class SynthesisMethod : public TextureMethod {
         iterations_(options.iterations),
         seed_(seed),
         times_(times),
-        exemplar_(std::make_shared<Exemplar>(options.exemplar, options.height)) {
+        exemplar_(openExemplar(options)) {
     const PhaseTimer timer(times_, "exemplar");
     const int levels = std::min(maxLevels, exemplar_->levelCount());
     for (int level = 0; level < levels; ++level) {

@@ -21,8 +21,10 @@ struct TextureSample {
   Vec3f colour = Vec3f::Zero();  ///< scene-linear
   float alpha = 1.0f;
   float displacement = 0.0f;     ///< exemplar's height in [0, 1]; 0 without a height map
+  float roughness = -1.0f;       ///< in [0, 1]; -1 where the texture does not say
+  Vec3f emission = Vec3f::Zero();  ///< radiance given off, scene-linear
   Vec2f st = Vec2f::Zero();      ///< exemplar coordinate in [0, 1]^2, t down the image
-  int exemplar = 0;
+  int exemplar = 0;              ///< which of the exemplar's images
   float id = 0.0f;               ///< particle or patch; exact integer below 2^24
   float age = 0.0f;              ///< frames this piece of texture has been carried; still frames do not count
   float distortion = 1.0f;       ///< max(s1, 1/s2) of the singular values of d(st)/d(P), 1 = isometric

@@ -38,7 +38,7 @@ struct TextureMethodInfo {
 /// All methods, in the order of `ebru methods`.
 const std::vector<TextureMethodInfo>& textureMethods();
 
-/// @param exemplarPath  resolved file name of options.exemplar
+/// @param options  with resolved file names
 /// @param seed  of the shot
 /// @param times  where phases are timed; may be null
 /// @throw UsageError if there is no such method; InputError if the exemplar cannot be used

@@ -7,14 +7,32 @@ namespace ebru {
 OptionFields fields(TextureOptions& o) {
   std::vector<std::string> methods;
   for (const TextureMethodInfo& info : textureMethods()) methods.push_back(info.name);
+  const auto map = [](std::string key, std::vector<std::string>& target, std::string help) {
+    return OptionField{.key = std::move(key), .target = &target, .help = std::move(help), .path = true};
+  };
+  const auto weight = [](std::string of, double& target) {
+    return OptionField{.key = "weight_" + of,
+                       .target = &target,
+                       .help = "how much differences of " + of + " count in synthesis; 0: not at all, it only comes along",
+                       .lower = 0.0,
+                       .upper = 1e6};
+  };
   return {
       {.key = "method", .target = &o.method, .help = "texture method; `ebru methods` explains them", .choices = methods},
       {.key = "exemplar",
        .target = &o.exemplar,
-       .help = "example image, sRGB if 8 or 16 bit, scene-linear if float",
+       .help = "example image, sRGB if 8 or 16 bit, scene-linear if float; of several, pieces of all are mixed",
        .required = true,
        .path = true},
-      {.key = "height", .target = &o.height, .help = "grey height map of the exemplar's size, 0 low to 1 high", .path = true},
+      map("height", o.height, "grey height map of the exemplar's size, 0 low to 1 high; one per exemplar, as the maps below"),
+      map("roughness", o.roughness, "grey map of what stands in for render.roughness, 0 smooth to 1 rough"),
+      map("alpha", o.alpha, "grey map of opacity, 0 to 1; without one the alpha channel of the exemplar itself"),
+      map("emission", o.emission, "map of the light given off, sRGB if 8 or 16 bit, scene-linear radiance if float"),
+      weight("colour", o.weight_colour),
+      weight("height", o.weight_height),
+      weight("roughness", o.weight_roughness),
+      weight("alpha", o.weight_alpha),
+      weight("emission", o.weight_emission),
       {.key = "texel_size",
        .target = &o.texel_size,
        .unit = "m",

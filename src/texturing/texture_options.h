@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/options.h"
 
@@ -9,8 +10,16 @@ namespace ebru {
 /// Table [texture] of the shot file.
 struct TextureOptions {
   std::string method = "synthesis";
-  std::string exemplar;
-  std::string height;
+  std::vector<std::string> exemplar;
+  std::vector<std::string> height;
+  std::vector<std::string> roughness;
+  std::vector<std::string> alpha;
+  std::vector<std::string> emission;
+  double weight_colour = 1.0;
+  double weight_height = 1.0;
+  double weight_roughness = 1.0;
+  double weight_alpha = 1.0;
+  double weight_emission = 1.0;
   double texel_size = 0.005;
   int iterations = 2;
 };

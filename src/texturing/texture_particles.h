@@ -22,7 +22,7 @@ struct TextureParticles {
   std::vector<Vec3f> orientation;  ///< unit tangent
   std::vector<Vec2f> st;           ///< exemplar coordinate, texels (see Exemplar)
   std::vector<Mat2f> jacobian;     ///< exemplar texels per texel of surface; a rotation where the texture is not distorted
-  std::vector<Texel> colour;       ///< encoded; what the chart shows at the particle, or what synthesis made of it
+  std::vector<Texel> colour;       ///< exemplar's texel; what the chart shows at the particle, or what synthesis made of it
   std::vector<float> age;          ///< frames this piece of texture has been carried; still frames do not count
   std::vector<std::uint32_t> id;   ///< unique over the run
   std::uint32_t nextId = 0;

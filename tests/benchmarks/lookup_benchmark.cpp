@@ -35,7 +35,7 @@ void LookupParticles(benchmark::State& state) {
 /// A look-up in the exemplar alone.
 void ExemplarSample(benchmark::State& state) {
   const Exemplar& e = *exemplar();
-  const Vec2f size(static_cast<float>(e.width()), static_cast<float>(e.height()));
+  const Vec2f size = e.tileSize(0).cast<float>();
   std::vector<Vec2f> places;
   for (const SurfacePoint& p : points()) places.push_back(p.barycentric.cwiseProduct(size));
   lookUps(state, places.size(), [&](std::size_t i) { return e.sample(0, places[i]); });
@@ -56,7 +56,7 @@ void WindowSearch(benchmark::State& state) {
     }
     return window;
   };
-  const Vec2f size(static_cast<float>(exemplar()->width()), static_cast<float>(exemplar()->height()));
+  const Vec2f size = exemplar()->tileSize(0).cast<float>();
   float usual = 0.0f;
   constexpr std::size_t count = 2000;
   for (std::size_t i = 0; i < count; ++i) {

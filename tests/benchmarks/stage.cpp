@@ -50,14 +50,14 @@ const FluidFrame& to() {
 }
 
 std::shared_ptr<const Exemplar> exemplar() {
-  static const auto shared = std::make_shared<const Exemplar>(exemplarPath(), "");
+  static const auto shared = std::make_shared<const Exemplar>(readExemplarMaps({.colour = {exemplarPath()}}));
   return shared;
 }
 
 std::unique_ptr<TextureMethod> method(const char* name) {
   TextureOptions options;
   options.method = name;
-  options.exemplar = exemplarPath();
+  options.exemplar = {exemplarPath()};
   options.texel_size = static_cast<double>(texelWorld);
   return makeTextureMethod(options, 1, nullptr);
 }

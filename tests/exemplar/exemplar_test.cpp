@@ -46,9 +46,9 @@ TEST(Exemplar, ATexelsCentreIsTheTexel) {
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
       const Vec2f uv(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-      ASSERT_TRUE((e.sample(0, uv) == e.texel(0, x, y)).all()) << x << " " << y;
+      ASSERT_TRUE((e.sample(0, uv) == e.texels(0).texel(0, x, y)).all()) << x << " " << y;
     }
-  EXPECT_TRUE((e.texel(0, 39, 29) == noise(39, 29)).all()) << "row-major, row 0 first";
+  EXPECT_TRUE((e.texels(0).texel(0, 39, 29) == noise(39, 29)).all()) << "row-major, row 0 first";
 }
 
 // Catmull-Rom's weights sum to 1 and reproduce t; that needs four real texels per axis.
@@ -73,8 +73,8 @@ TEST(Exemplar, GradientsAreThoseOfFiniteDifferences) {
     for (int i = 0; i < 200; ++i) {
       Random random(3, static_cast<std::uint64_t>(level), static_cast<std::uint64_t>(i));
       // Over the border too: clamped texels are a function like any other, up to half a texel outside.
-      const Vec2f uv(random.uniform() * static_cast<float>(e.width(level)),
-                     random.uniform() * static_cast<float>(e.height(level)));
+      const Vec2f uv(random.uniform() * static_cast<float>(e.tileSize(0, level).x()),
+                     random.uniform() * static_cast<float>(e.tileSize(0, level).y()));
       constexpr float h = 0.01f;
       Texel du, dv;
       const Texel value = e.sample(level, uv, du, dv);
@@ -93,11 +93,11 @@ TEST(Exemplar, GradientsAreThoseOfFiniteDifferences) {
 
 TEST(Exemplar, ClampsToItsBorder) {
   const Exemplar e = exemplarOf(32, 24, noise);
-  EXPECT_TRUE((e.sample(0, Vec2f(-50.0f, -1e9f)) == e.texel(0, 0, 0)).all());
-  EXPECT_TRUE((e.sample(0, Vec2f(1e9f, 300.0f)) == e.texel(0, 31, 23)).all());
-  EXPECT_TRUE((e.sample(0, Vec2f(-7.0f, 10.5f)) == e.texel(0, 0, 10)).all());
+  EXPECT_TRUE((e.sample(0, Vec2f(-50.0f, -1e9f)) == e.texels(0).texel(0, 0, 0)).all());
+  EXPECT_TRUE((e.sample(0, Vec2f(1e9f, 300.0f)) == e.texels(0).texel(0, 31, 23)).all());
+  EXPECT_TRUE((e.sample(0, Vec2f(-7.0f, 10.5f)) == e.texels(0).texel(0, 0, 10)).all());
   Texel du, dv;
-  EXPECT_TRUE((e.sample(0, Vec2f(1000.0f, 10.5f), du, dv) == e.texel(0, 31, 10)).all());
+  EXPECT_TRUE((e.sample(0, Vec2f(1000.0f, 10.5f), du, dv) == e.texels(0).texel(0, 31, 10)).all());
   EXPECT_LT(difference(du, Texel::Zero()), 1e-6f);
 }
 
@@ -107,7 +107,7 @@ TEST(Exemplar, PyramidSizes) {
   const auto sizes = [](int w, int h) {
     const Exemplar e = exemplarOf(w, h, noise);
     std::vector<Vec2i> result;
-    for (int l = 0; l < e.levelCount(); ++l) result.emplace_back(e.width(l), e.height(l));
+    for (int l = 0; l < e.levelCount(); ++l) result.push_back(e.tileSize(0, l));
     return result;
   };
   EXPECT_EQ(sizes(100, 70), (std::vector<Vec2i>{{100, 70}, {50, 35}}));
@@ -120,8 +120,8 @@ TEST(Exemplar, PyramidKeepsAConstant) {
   const Exemplar e = exemplarOf(101, 99, [&](int, int) { return constant; });
   ASSERT_EQ(e.levelCount(), 3);
   for (int l = 0; l < 3; ++l)
-    for (int y = 0; y < e.height(l); ++y)
-      for (int x = 0; x < e.width(l); ++x) ASSERT_LT(difference(e.texel(l, x, y), constant), 1e-6f);
+    for (int y = 0; y < e.tileSize(0, l).y(); ++y)
+      for (int x = 0; x < e.tileSize(0, l).x(); ++x) ASSERT_LT(difference(e.texels(0).texel(l, x, y), constant), 1e-6f);
   EXPECT_LT(e.contrast(), 1e-4f);
 }
 
@@ -190,6 +190,7 @@ class ExemplarFile : public ::testing::Test {
     writePreviewPng(folder_ / name, image);
     return folder_ / name;
   }
+  static Exemplar opened(const ExemplarFiles& files) { return Exemplar(readExemplarMaps(files)); }
   template <class Action>
   static std::string inputError(const Action& action) {
     try {
@@ -208,43 +209,43 @@ bool contains(const std::string& text, const std::string& part) {
 
 // 8-bit files hold encoded values: they come back as they are.
 TEST_F(ExemplarFile, TexelsAreTheFilesEncodedValues) {
-  const Exemplar e(write("colour.png", 40, 30), {});
-  ASSERT_EQ(e.width(), 40);
-  ASSERT_EQ(e.height(), 30);
+  const Exemplar e = opened({.colour = {write("colour.png", 40, 30)}});
+  ASSERT_EQ(e.tileSize(0).x(), 40);
+  ASSERT_EQ(e.tileSize(0).y(), 30);
   EXPECT_FALSE(e.hasHeight());
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
       const Texel expected(static_cast<float>(x) / 255.0f, static_cast<float>(y) / 255.0f, 0.0f, 0.0f);
-      ASSERT_LT(difference(e.texel(0, x, y), expected), 1e-4f) << x << " " << y;
+      ASSERT_LT(difference(e.texels(0).texel(0, x, y), expected), 1e-4f) << x << " " << y;
     }
 }
 
 // A height map is a measure, not a colour: no curve is taken off it.
 TEST_F(ExemplarFile, HeightIsTheFilesFirstChannel) {
-  const Exemplar e(write("colour.png", 40, 30), write("height.png", 40, 30));
+  const Exemplar e = opened({.colour = {write("colour.png", 40, 30)}, .height = {write("height.png", 40, 30)}});
   EXPECT_TRUE(e.hasHeight());
-  for (int x = 0; x < 40; ++x) EXPECT_NEAR(e.texel(0, x, 7)[3], static_cast<float>(x) / 255.0f, 1e-4f);
+  for (int x = 0; x < 40; ++x) EXPECT_NEAR(e.texels(0).texel(0, x, 7)[3], static_cast<float>(x) / 255.0f, 1e-4f);
 }
 
 TEST_F(ExemplarFile, TooSmallNamesFileAndSizes) {
   const std::filesystem::path file = write("tiny.png", 40, 23);
-  const std::string message = inputError([&] { Exemplar(file, {}); });
+  const std::string message = inputError([&] { opened({.colour = {file}}); });
   EXPECT_TRUE(contains(message, file.string())) << message;
   EXPECT_TRUE(contains(message, "40 x 23")) << message;
   EXPECT_TRUE(contains(message, "24 x 24")) << message;
-  EXPECT_NO_THROW(Exemplar(write("enough.png", 24, 24), {}));
+  EXPECT_NO_THROW(opened({.colour = {write("enough.png", 24, 24)}}));
 }
 
 TEST_F(ExemplarFile, HeightOfAnotherSizeNamesBoth) {
   const std::filesystem::path colour = write("colour.png", 40, 30), height = write("height.png", 30, 40);
-  const std::string message = inputError([&] { Exemplar(colour, height); });
+  const std::string message = inputError([&] { opened({.colour = {colour}, .height = {height}}); });
   for (const std::string& part :
        {colour.string(), height.string(), std::string("40 x 30"), std::string("30 x 40")})
     EXPECT_TRUE(contains(message, part)) << message;
 }
 
 TEST_F(ExemplarFile, MissingIsAnInputError) {
-  EXPECT_TRUE(contains(inputError([&] { Exemplar(folder_ / "nowhere.png", {}); }), "nowhere.png"));
+  EXPECT_TRUE(contains(inputError([&] { opened({.colour = {folder_ / "nowhere.png"}}); }), "nowhere.png"));
 }
 
 TEST(Exemplar, FootprintsAreMeans) {

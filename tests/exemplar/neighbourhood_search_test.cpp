@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/random.h"
+#include "maps.h"
 
 namespace ebru {
 namespace {
@@ -209,6 +210,94 @@ TEST_P(Search, OnACoarserLevel) {
   EXPECT_LE((match.texel - texel).cwiseAbs().maxCoeff(), 2);
 }
 
+/// Two images of different sizes and looks.
+class SearchOfTwo : public ::testing::TestWithParam<int> {
+ protected:
+  static ExemplarMaps image(const Vec2i& size, std::uint64_t kind) {
+    return test::plainMaps(size, [kind](int x, int y) { return test::colourWaves(x, y, kind); });
+  }
+  const Exemplar exemplar{{image({72, 60}, 1), image({90, 80}, 2)}};
+};
+
+TEST_P(SearchOfTwo, AWindowIsFoundInTheImageItWasCutFrom) {
+  for (const int level : {0, 1}) {
+    const NeighbourhoodSearch search(exemplar, level, GetParam());
+    const int half = GetParam() / 2;
+    for (int tile = 0; tile < 2; ++tile)
+      for (std::uint64_t i = 0; i < 20; ++i) {
+        Random random(5, static_cast<std::uint64_t>(tile), i);
+        // Places of the tree: every second one.
+        const Vec2i room = (exemplar.tileSize(tile, level) - Vec2i::Constant(2 * half + 1)) / 2;
+        const Vec2i step(static_cast<int>(random.below(static_cast<std::uint32_t>(room.x()))),
+                         static_cast<int>(random.below(static_cast<std::uint32_t>(room.y()))));
+        const Vec2i texel = exemplar.tileOrigin(tile, level) + Vec2i::Constant(half) + 2 * step;
+        const NeighbourhoodSearch::Descriptor query = search.describe(windowAt(exemplar, search, centreOf(texel)));
+        const NeighbourhoodSearch::Match match = nearestAnywhere(search, query);
+        EXPECT_LE((match.texel - texel).cwiseAbs().maxCoeff(), 2) << "tile " << tile << " level " << level;
+        EXPECT_EQ(search.at(texel, query).texel, texel);
+        EXPECT_NEAR(search.at(match.texel, query).distanceSquared, match.distanceSquared, 1e-3f * match.distanceSquared);
+      }
+  }
+}
+
+// The images are 72 and 90 wide, the gap's middle is half way between them.
+TEST_P(SearchOfTwo, ACentreIsMovedIntoTheImageItIsNearestTo) {
+  const NeighbourhoodSearch search(exemplar, 0, GetParam());
+  const int half = GetParam() / 2;
+  const float margin = static_cast<float>(half) + 0.5f;
+  const int origin = exemplar.tileOrigin(1).x();
+  const float middle = 0.5f * static_cast<float>(72 + origin);
+  EXPECT_EQ(search.clampInside({middle - 0.5f, 30.0f}), Vec2f(72.0f - margin, 30.0f));
+  EXPECT_EQ(search.clampInside({middle + 0.5f, 30.0f}), Vec2f(static_cast<float>(origin) + margin, 30.0f));
+  EXPECT_EQ(search.clampInside({1e9f, 1e9f}), Vec2f(static_cast<float>(origin) + 90.0f - margin, 80.0f - margin));
+  const Vec2f inside(static_cast<float>(origin) + 40.0f, 41.0f);
+  EXPECT_EQ(search.clampInside(inside), inside);
+  const NeighbourhoodSearch::Descriptor query = search.describe(windowAt(exemplar, search, {36.5f, 30.5f}));
+  EXPECT_EQ(search.at({static_cast<int>(middle) - 2, 30}, query).texel, Vec2i(71 - half, 30));
+  EXPECT_EQ(search.at({static_cast<int>(middle) + 2, 30}, query).texel, Vec2i(origin + half, 30));
+}
+
+// Of the same image twice the first is found.
+TEST_P(SearchOfTwo, TiesGoToTheFirstImage) {
+  const Exemplar twins{{image({60, 60}, 3), image({60, 60}, 3)}};
+  const NeighbourhoodSearch search(twins, 0, GetParam());
+  for (int i = 0; i < 20; ++i) {
+    const Vec2i texel(10 + 2 * i, 50 - 2 * i);
+    const Vec2i second = texel + twins.tileOrigin(1);
+    const NeighbourhoodSearch::Match match =
+        nearestAnywhere(search, search.describe(windowAt(twins, search, centreOf(second))));
+    EXPECT_LT(match.texel.x(), 60);
+  }
+}
+
+// Two halves of one colour pattern, smooth and rough: only a search that counts roughness tells them apart.
+TEST_P(SearchOfTwo, WeightsSayWhatCounts) {
+  ExemplarMaps maps = test::plainMaps({96, 48}, [](int x, int y) { return test::colourWaves(x % 48, y, 4); });
+  maps.roughness = test::valuesOf(maps.size, [](int x, int y) {
+    return (x < 48 ? 0.1f : 0.5f) + 0.4f * test::waves(x % 48, y, 77);
+  });
+  ChannelWeights weights;
+  for (const float counts : {0.0f, 1.0f}) {
+    weights.roughness = counts;
+    const Exemplar e({maps}, weights);
+    const NeighbourhoodSearch search(e, 0, GetParam());
+    for (const int y : {16, 24, 30}) {
+      const Vec2i rough(72, y), smooth(24, y);
+      const NeighbourhoodSearch::Descriptor query = search.describe(windowAt(e, search, centreOf(rough)));
+      const float own = search.at(rough, query).distanceSquared, other = search.at(smooth, query).distanceSquared;
+      if (counts == 0.0f)
+        EXPECT_NEAR(other, own, 1e-6f);
+      else
+        EXPECT_GT(other, own + 0.02f) << "differs by 0.4 in one channel";
+      if (counts > 0.0f) {
+        EXPECT_LE((nearestAnywhere(search, query).texel - rough).cwiseAbs().maxCoeff(), 2);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Windows, SearchOfTwo, ::testing::Values(9, 17),
+                         [](const auto& info) { return "Of" + std::to_string(info.param); });
 INSTANTIATE_TEST_SUITE_P(Windows, Search, ::testing::Values(9, 17),
                          [](const auto& info) { return "Of" + std::to_string(info.param); });
 

@@ -21,7 +21,7 @@ class EveryMethod : public ::testing::TestWithParam<std::string> {
   template <class Check>
   void onEveryAnimal(const test::TexelFunction& exemplar, const Check& check) {
     options_.method = GetParam();
-    options_.exemplar = test::writeExemplar(folder_ / "exemplar.png", 48, exemplar).string();
+    options_.exemplar = {test::writeExemplar(folder_ / "exemplar.png", 48, exemplar).string()};
     for (const zoo::Fluid& animal : zoo::all()) {
       SCOPED_TRACE(animal.name);
       fluid_ = animal;
@@ -158,7 +158,7 @@ TEST_P(EveryMethod, GoesOnFromASavedState) {
 // An exemplar of one colour: whatever is blended, moved or searched, it is that colour.
 TEST_P(EveryMethod, ConstantExemplarIsThatConstant) {
   onEveryAnimal(test::constantTexel, [&] {
-    const Vec3f expected = linearColour(Exemplar(options_.exemplar, {}).texel(0, 5, 5));
+    const Vec3f expected = linearColour(Exemplar(readExemplarMaps({.colour = options_.exemplar})).texels(0).texel(0, 5, 5));
     run([&](const TextureMethod& m, std::size_t k) {
       float largest = 0.0f;
       for (const SurfacePoint& p : test::surfacePoints(frames()[k]->mesh))

@@ -86,7 +86,7 @@ TEST(Synthesis, FirstFrameIsMadeOfTheExemplarsWindows) {
   TextureOptions options;
   options.method = "synthesis";
   options.texel_size = 0.04;
-  options.exemplar = test::writeExemplar(folder / "discs.png", exemplarSize, test::discs).string();
+  options.exemplar = {test::writeExemplar(folder / "discs.png", exemplarSize, test::discs).string()};
   const auto frame = test::slab(1, [](const Vec3f&) -> Vec3f { return Vec3f::Zero(); });
   const std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 1, nullptr);
   method->start(*frame);
@@ -114,7 +114,7 @@ std::vector<float> agesInShear(int iterations) {
   options.method = "synthesis";
   options.texel_size = 0.04;
   options.iterations = iterations;
-  options.exemplar = test::writeExemplar(folder / "discs.png", exemplarSize, test::discs).string();
+  options.exemplar = {test::writeExemplar(folder / "discs.png", exemplarSize, test::discs).string()};
   const auto shear = [](const Vec3f& p) { return Vec3f(0.18f * p.y(), 0.0f, 0.0f); };
   const std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 1, nullptr);
   auto from = test::slab(1, shear);

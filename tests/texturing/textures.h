@@ -135,7 +135,7 @@ class EachMethod : public ::testing::TestWithParam<std::string> {
     TextureOptions options;
     options.method = GetParam();
     options.texel_size = texelFor(fluid, wantedParticles);
-    options.exemplar = writeExemplar(folder_ / "discs.png", 48, discs).string();
+    options.exemplar = {writeExemplar(folder_ / "discs.png", 48, discs).string()};
     std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 7, nullptr);
     method->start(*fluid.frames[0]);
     return method;
