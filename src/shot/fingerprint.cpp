@@ -43,11 +43,17 @@ std::string fingerprintOf(const Shot& constShot, bool statesOnly) {
       for (const OptionField& field : table.fields(shot, i)) {
         if (decidesNothing(table.name, field.key)) continue;
         fingerprint.add(field.key);
+        const std::filesystem::path folder = shot.file.parent_path();
         const auto* path = std::get_if<std::string*>(&field.target);
-        if (field.path && path)
-          addPath(fingerprint, **path, shot.file.parent_path());
-        else
+        const auto* paths = std::get_if<std::vector<std::string>*>(&field.target);
+        if (field.path && path) {
+          addPath(fingerprint, **path, folder);
+        } else if (field.path && paths) {
+          fingerprint.add(static_cast<std::uint64_t>((*paths)->size()));
+          for (const std::string& one : **paths) addPath(fingerprint, one, folder);
+        } else {
           fingerprint.add(printOption(field.target));
+        }
       }
     }
   }

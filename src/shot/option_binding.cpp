@@ -75,18 +75,23 @@ class FieldBinder {
   void set(std::array<double, N>& target) {
     setArray(target, [this](const ConfigValue& item) { return readDouble(item); });
   }
+  /// A string alone is a list of one, or of none if it is empty.
   void set(std::vector<std::string>& target) {
     std::vector<std::string> texts;
+    const auto read = [&](const ConfigValue& value) {
+      const auto text = readString(value);
+      if (text && (!text->empty() || value_.kind == Kind::array)) texts.push_back(*text);
+      return text.has_value();
+    };
     if (value_.kind != Kind::array) {
-      if (const auto text = readString(value_)) target = {*text};
+      if (!read(value_)) return;
+    } else if (!std::all_of(value_.items.begin(), value_.items.end(), read)) {
       return;
     }
-    for (const ConfigValue& item : value_.items) {
-      const auto text = readString(item);
-      if (!text) return;
-      texts.push_back(*text);
-    }
-    target = texts;
+    if (texts.empty() && field_.required)
+      problem_ = fmt::format("got {}, expected at least one", value_.print());
+    else
+      target = texts;
   }
 
   template <class Array, class Read>
@@ -213,7 +218,7 @@ std::string optionTypeName(const OptionTarget& target) {
     std::string operator()(const std::array<int, 2>*) const { return "2 integers"; }
     std::string operator()(const std::array<double, 2>*) const { return "2 floats"; }
     std::string operator()(const std::array<double, 3>*) const { return "3 floats"; }
-    std::string operator()(const std::vector<std::string>*) const { return "strings"; }
+    std::string operator()(const std::vector<std::string>*) const { return "string or list of strings"; }
   };
   return std::visit(Name(), target);
 }

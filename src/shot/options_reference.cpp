@@ -12,6 +12,8 @@ namespace {
 
 std::string allowed(const OptionField& field) {
   if (!field.choices.empty()) return fmt::format("`{}`", fmt::join(field.choices, "`, `"));
+  if (field.path && std::holds_alternative<std::vector<std::string>*>(field.target))
+    return "file name or list of them, relative to the shot file";
   if (field.path) return "file name, relative to the shot file";
   const std::string range = optionRange(field), type = optionTypeName(field.target);
   if (!range.empty()) return fmt::format("{}, {}", type, range);

@@ -111,6 +111,23 @@ def test_exemplar_of_one_texel(folder):
         refuses(folder, write_shot(folder, method=method, exemplar="dot.png"), INPUT, "dot.png", "1 x 1")
 
 
+def test_maps_that_do_not_fit_the_exemplars(folder):
+    for name, size in (("a.png", 40), ("b.png", 40), ("c.png", 41)):
+        (folder / name).write_bytes(png(size, 40))
+    for method in ("particles", "synthesis"):
+        shot = write_shot(folder, method=method, exemplar="a.png")
+        two = ["--set", 'texture.exemplar=["a.png", "b.png"]']
+        for key in ("height", "roughness", "alpha", "emission"):
+            refuses(folder, shot, USAGE, f"texture.{key}: number of files: got 1, expected 2",
+                    arguments=[*two, "--set", f"texture.{key}=a.png"])
+            refuses(folder, shot, INPUT, f"c.png: size of the {key} map: got 41 x 40, expected 40 x 40", "b.png",
+                    arguments=[*two, "--set", f'texture.{key}=["a.png", "c.png"]'])
+        refuses(folder, shot, USAGE, "texture.weight_*", arguments=["--set", "texture.weight_colour=0"])
+        refuses(folder, shot, USAGE, "texture.weight_alpha: got -1", arguments=["--set", "texture.weight_alpha=-1"])
+        refuses(folder, shot, USAGE, "texture.exemplar: got [], expected at least one",
+                arguments=["--set", "texture.exemplar=[]"])
+
+
 def test_texel_size_zero(folder):
     refuses(folder, write_shot(folder, texel=0), USAGE, "tiny.toml:15: texture.texel_size: got 0 m, expected")
 

@@ -70,6 +70,24 @@ def test_other_shots_states_are_not_used(folder):
     assert_same_files(pictures(out), pictures(whole))
 
 
+def test_resume_notices_that_a_map_changed(folder):
+    exemplars = ROOT / "scenes/exemplars"
+    for name in ("foam", "soup", "foam_height"):
+        shutil.copy(exemplars / f"{name}.png", folder / f"{name}.png")
+    maps = folder / "map.png"
+    for key in ("exemplar", "height", "roughness", "alpha", "emission"):
+        shutil.copy(exemplars / "foam_height.png", maps)
+        shot, out = write_shot(folder, last=2, exemplar=folder / "foam.png"), folder / key
+        files_of_key = ["foam.png", "map.png"] if key == "exemplar" else ["foam_height.png", "map.png"]
+        settings = ["--set", 'texture.exemplar=["foam.png", "soup.png"]', "--set", f"texture.{key}={files_of_key}".replace("'", '"')]
+        render(shot, out, *settings)
+        assert "0 frames" in render(shot, out, "--resume", *settings).stdout
+        before = pictures(out)
+        shutil.copy(exemplars / "soup_height.png", maps)
+        assert "2 frames" in render(shot, out, "--resume", *settings).stdout, key
+        assert pictures(out) != before, key
+
+
 def test_any_split_and_order_of_frames(folder):
     shot, whole = write_shot(folder, method="synthesis", last=7), folder / "whole"
     render(shot, whole)

@@ -21,6 +21,33 @@ TEST(OptionBinding, PrintsWhatReadsBackToTheSameBits) {
   EXPECT_EQ(printOption(&size), "[640, 360]");
 }
 
+/// What texture.exemplar = `text` gives, or the problem.
+std::vector<std::string> boundList(const std::string& text, bool required = true) {
+  std::vector<std::string> files = {"default"}, problems;
+  ConfigValue table;
+  table.kind = ConfigValue::Kind::table;
+  table.where = "dam.toml:1";
+  table.items.push_back(parseOverrideValue(text));
+  table.items.back().key = "files";
+  table.items.back().where = "dam.toml:2";
+  bindTable({{.key = "files", .target = &files, .required = required, .path = true}}, &table, "texture", "dam.toml", "/shots",
+            problems);
+  return problems.empty() ? files : problems;
+}
+
+TEST(OptionBinding, AStringAloneIsAListOfOne) {
+  using Files = std::vector<std::string>;
+  EXPECT_EQ(boundList("\"a.png\""), Files{"/shots/a.png"});
+  EXPECT_EQ(boundList("a.png"), Files{"/shots/a.png"}) << "the shell has eaten the quotes";
+  EXPECT_EQ(boundList("[\"a.png\", \"../b.png\"]"), (Files{"/shots/a.png", "/b.png"}));
+  EXPECT_EQ(boundList("\"\"", false), Files{});
+  EXPECT_EQ(boundList("[]", false), Files{});
+  EXPECT_EQ(boundList("[]"), Files{"dam.toml:2: texture.files: got [], expected at least one"});
+  EXPECT_EQ(boundList("[1]"), Files{"dam.toml:2: texture.files: got [1] (array), expected string or list of strings"});
+  std::vector<std::string> files = {"/shots/a \"b\".png", "/c.png"};
+  EXPECT_EQ(boundList(printOption(&files)), files) << "printed and read back";
+}
+
 TEST(OptionBinding, DefaultsOfEveryOptionLieInTheirRange) {
   Shot shot;
   for (const ShotTable& table : shotTables()) {

@@ -78,8 +78,9 @@ TEST_F(ShotReader, ReadsEveryKindOfTable) {
 TEST_F(ShotReader, ResolvesPathsAgainstTheShotFile) {
   const Shot shot = read(good);
   EXPECT_EQ(shot.fluid.path, (folder_ / "caches/dam.####.vdb").string());
-  EXPECT_EQ(shot.texture.exemplar, (folder_ / "pebbles.png").string());
-  EXPECT_EQ(read(good, {"texture.exemplar=/elsewhere/lava.png"}).texture.exemplar, "/elsewhere/lava.png");
+  EXPECT_EQ(shot.texture.exemplar, std::vector<std::string>{(folder_ / "pebbles.png").string()});
+  EXPECT_EQ(read(good, {"texture.exemplar=/elsewhere/lava.png"}).texture.exemplar,
+            std::vector<std::string>{"/elsewhere/lava.png"});
 }
 
 TEST_F(ShotReader, ListsEveryProblemAtOnceWithItsLine) {
