@@ -15,7 +15,8 @@ class DirectLightIntegrator : public Integrator {
     }
     const Appearance appearance = in_.materials.at(hit, ray.ray.direction, ray.widthAt(hit.distanceWorld));
     const Bsdf bsdf(appearance.material, hit.facing, -ray.ray.direction);
-    return {sunLight(hit, bsdf, sampler) + environmentLight(hit, bsdf, sampler), 1.0f};
+    const Vec3f reflected = sunLight(hit, bsdf, sampler) + environmentLight(hit, bsdf, sampler);
+    return {reflected + appearance.texture.emission, 1.0f};
   }
 
  private:

@@ -41,7 +41,12 @@ Appearance Materials::fluid(const SurfaceHit& hit, const Vec3f& rayDirection, fl
   const float cosine = std::max(1.0f / 16.0f, std::abs(hit.normal.dot(rayDirection)));
   point.footprintWorld = widthWorld / std::sqrt(cosine);
   appearance.texture = texture_->lookup(point);
-  if (appearance.texture.valid) appearance.material.albedo = appearance.texture.colour;
+  if (!appearance.texture.valid) return appearance;
+  appearance.material.albedo = appearance.texture.colour;
+  // As in render.roughness: below that the coat is a mirror, and noise.
+  constexpr float smoothest = 0.02f;
+  if (appearance.texture.roughness >= 0.0f)
+    appearance.material.coatRoughness = std::max(smoothest, appearance.texture.roughness);
   return appearance;
 }
 

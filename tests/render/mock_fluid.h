@@ -42,10 +42,13 @@ inline FluidFrame makeFrame(TriangleMesh mesh, const Vec3f& linear = Vec3f::Zero
 /// One colour everywhere; s and t are the point's x and y.
 class PlainTexture : public TextureField {
  public:
-  explicit PlainTexture(const Vec3f& colour) : colour_(colour) {}
+  explicit PlainTexture(const Vec3f& colour, float roughness = -1.0f, const Vec3f& emission = Vec3f::Zero())
+      : colour_(colour), emission_(emission), roughness_(roughness) {}
   TextureSample lookup(const SurfacePoint& point) const override {
     TextureSample sample;
     sample.colour = colour_;
+    sample.roughness = roughness_;
+    sample.emission = emission_;
     sample.st = point.position.head<2>();
     sample.id = 5.0f;
     sample.age = 3.0f;
@@ -55,7 +58,8 @@ class PlainTexture : public TextureField {
   }
 
  private:
-  Vec3f colour_;
+  Vec3f colour_, emission_;
+  float roughness_;
 };
 
 /// Seen straight from above (+y up in the picture), parallel.

@@ -73,6 +73,33 @@ TEST(Renderer, WhiteFurnace) {
   EXPECT_NEAR(sum / covered, 1.0, 0.002);
 }
 
+// A black body without light gives off what its texture says, and nothing else.
+TEST(Renderer, EmissionIsRadiance) {
+  const PlainTexture texture(Vec3f::Zero(), -1.0f, Vec3f(0.25f, 3.0f, 0.0f));
+  const ChannelImage image = render(topView(32, 32, 0.5), makeFrame(makeBox(Vec3f::Zero(), Vec3f(1.0f, 1.0f, 0.2f))), &texture);
+  for (std::size_t i = 0; i < image.find("R")->data.size(); ++i) {
+    ASSERT_EQ(image.find("R")->data[i], 0.25f);
+    ASSERT_EQ(image.find("G")->data[i], 3.0f);
+    ASSERT_EQ(image.find("B")->data[i], 0.0f);
+  }
+}
+
+// The same picture as with that value in the shot; a texture that does not say leaves the shot's.
+TEST(Renderer, RoughnessOfTheTextureStandsInForTheShots) {
+  SceneOptions options = topView(48, 48, 1.6);
+  options.lights = {sun(0.3, 0.2, 1.0), sky(0.3)};
+  options.render.specular = 1.0;
+  const FluidFrame frame = makeFrame(makeSphere(Vec3f::Zero(), 0.7f));
+  const auto red = [&](double ofShot, float ofTexture) {
+    options.render.roughness = ofShot;
+    const PlainTexture texture(Vec3f(0.1f, 0.1f, 0.1f), ofTexture);
+    return render(options, frame, &texture).find("R")->data;
+  };
+  EXPECT_EQ(red(0.3, 0.8f), red(0.8, -1.0f));
+  EXPECT_EQ(red(0.3, 0.0f), red(0.02, -1.0f)) << "the smoothest there is";
+  EXPECT_NE(red(0.3, -1.0f), red(0.8, -1.0f));
+}
+
 // Premultiplied: radiance is albedo times coverage at a silhouette too.
 TEST(Renderer, BeautyIsPremultipliedByCoverage) {
   SceneOptions options = topView(64, 64, 1.6);
