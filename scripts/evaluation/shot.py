@@ -16,7 +16,10 @@ def read(path):
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as e:
         raise UsageError(f"{path}: got a file that is no TOML ({e}), expected a shot") from None
     if "exemplar" in tables.get("texture", {}):
-        tables["texture"]["exemplar"] = str((path.parent / tables["texture"]["exemplar"]).resolve())
+        named = tables["texture"]["exemplar"]
+        # One picture is what a sequence is compared with: of several the first.
+        first = named[0] if isinstance(named, list) and named else named
+        tables["texture"]["exemplar"] = str((path.parent / first).resolve())
     tables.setdefault("shot", {}).setdefault("fps", 24.0)
     tables["shot"].setdefault("name", path.stem)
     return tables
