@@ -21,44 +21,31 @@ constexpr int treeStride = 2;
 using Raw = Eigen::Matrix<float, pixels * channels, 1>;
 using Projection = Eigen::Matrix<float, dimensions, pixels * channels>;
 
-/// The windows of one tile.
+/// The windows of one tile, numbered row by row.
 struct TileWindows {
   int tile;
-  Vec2i origin;               ///< of the tile on the level
-  int columns, rows;          ///< of window centres
-  std::size_t first;          ///< of its descriptors
-  std::size_t firstInTree;
+  Vec2i origin;       ///< of the tile on the level
+  int columns, rows;  ///< of window centres
+  std::size_t first;  ///< number of its first window
 
-  int treeColumns() const { return (columns + treeStride - 1) / treeStride; }
-  int treeRows() const { return (rows + treeStride - 1) / treeStride; }
-  std::size_t count() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  std::size_t end() const { return first + static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
   std::size_t index(int x, int y) const {
     return first + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
   }
+  Vec2i corner(std::size_t i) const {
+    const auto width = static_cast<std::size_t>(columns);
+    return {static_cast<int>((i - first) % width), static_cast<int>((i - first) / width)};
+  }
 };
 
-/// The windows in the tree, numbered tile by tile and row by row: in the order of their positions.
+/// The windows in the tree, in the order of their positions: tile by tile and row by row.
 struct DescriptorCloud {
-  const std::vector<NeighbourhoodSearch::Descriptor>* descriptors;
-  std::vector<TileWindows> tiles;
+  const NeighbourhoodSearch::Descriptor* descriptors = nullptr;  ///< of all windows
+  std::vector<std::uint32_t> windows;                            ///< their numbers
 
-  const TileWindows& tileOf(std::size_t i) const {
-    std::size_t t = 0;
-    while (t + 1 < tiles.size() && i >= tiles[t + 1].firstInTree) ++t;
-    return tiles[t];
-  }
-  static Vec2i place(const TileWindows& tile, std::size_t i) {
-    const int k = static_cast<int>(i - tile.firstInTree);
-    return treeStride * Vec2i(k % tile.treeColumns(), k / tile.treeColumns());
-  }
-  std::size_t kdtree_get_point_count() const {
-    const TileWindows& last = tiles.back();
-    return last.firstInTree + static_cast<std::size_t>(last.treeColumns() * last.treeRows());
-  }
+  std::size_t kdtree_get_point_count() const { return windows.size(); }
   float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    const TileWindows& tile = tileOf(i);
-    const Vec2i at = place(tile, i);
-    return (*descriptors)[tile.index(at.x(), at.y())][static_cast<Eigen::Index>(axis)];
+    return descriptors[windows[i]][static_cast<Eigen::Index>(axis)];
   }
   template <class Box>
   bool kdtree_get_bbox(Box&) const {
@@ -106,16 +93,17 @@ struct NeighbourhoodSearch::Impl {
   Raw mean = Raw::Zero();
   Projection projection = Projection::Zero();
   std::vector<Descriptor> descriptors;  ///< of all windows, tile by tile and row by row; none for the gaps
-  DescriptorCloud cloud{};
+  std::vector<TileWindows> tiles;
+  DescriptorCloud cloud;
   std::unique_ptr<Tree> tree;
 
   Impl(const Exemplar& e, int l, int w) : exemplar(e), level(l), window(w), spacing(w / 8), half(w / 2) {
     numberWindows();
     computeWeights();
     analyse();
-    const TileWindows& last = cloud.tiles.back();
-    descriptors.resize(last.first + last.count());
-    for (const TileWindows& tile : cloud.tiles)
+    descriptors.resize(tiles.back().end());
+    cloud.descriptors = descriptors.data();
+    for (const TileWindows& tile : tiles)
       parallelFor(static_cast<std::size_t>(tile.rows), 1, [&](std::size_t y) {
         for (int x = 0; x < tile.columns; ++x)
           descriptors[tile.index(x, static_cast<int>(y))] =
@@ -126,20 +114,24 @@ struct NeighbourhoodSearch::Impl {
   }
 
   void numberWindows() {
-    cloud.descriptors = &descriptors;
-    std::size_t first = 0, firstInTree = 0;
+    std::size_t first = 0;
     for (int t = 0; t < exemplar.tileCount(); ++t) {
       const Vec2i& size = exemplar.tileSize(t, level);
-      const TileWindows tile{t, exemplar.tileOrigin(t, level), size.x() - 2 * half, size.y() - 2 * half, first, firstInTree};
-      first += tile.count();
-      firstInTree += static_cast<std::size_t>(tile.treeColumns() * tile.treeRows());
-      cloud.tiles.push_back(tile);
+      const TileWindows tile{t, exemplar.tileOrigin(t, level), size.x() - 2 * half, size.y() - 2 * half, first};
+      for (int y = 0; y < tile.rows; y += treeStride)
+        for (int x = 0; x < tile.columns; x += treeStride)
+          cloud.windows.push_back(static_cast<std::uint32_t>(tile.index(x, y)));
+      first = tile.end();
+      tiles.push_back(tile);
     }
   }
 
+  const TileWindows& tileOf(std::size_t window) const {
+    return *std::find_if(tiles.begin(), tiles.end(), [&](const TileWindows& tile) { return window < tile.end(); });
+  }
   /// The tile that a coordinate of the level belongs to.
   const TileWindows& tileAt(const Vec2f& uv) const {
-    return cloud.tiles[static_cast<std::size_t>(exemplar.tileAt(uv * static_cast<float>(1 << level)))];
+    return tiles[static_cast<std::size_t>(exemplar.tileAt(uv * static_cast<float>(1 << level)))];
   }
 
   void computeWeights() {
@@ -184,16 +176,14 @@ struct NeighbourhoodSearch::Impl {
   /// Principal components of a fixed sample of the windows.
   void analyse() {
     constexpr int wanted = 3000;
-    const std::size_t total = cloud.tiles.back().first + cloud.tiles.back().count();
+    const std::size_t total = tiles.back().end();
     const std::size_t count = std::min<std::size_t>(total, wanted);
     Eigen::MatrixXf samples(pixels * channels, static_cast<Eigen::Index>(count));
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = total <= wanted ? k : Random(17, 0, k).below(static_cast<std::uint32_t>(total));
-      auto tile = cloud.tiles.begin();
-      while (i >= tile->first + tile->count()) ++tile;
-      const auto x = static_cast<int>((i - tile->first) % static_cast<std::size_t>(tile->columns));
-      const auto y = static_cast<int>((i - tile->first) / static_cast<std::size_t>(tile->columns));
-      samples.col(static_cast<Eigen::Index>(k)) = weighted(windowAt(tile->tile, x + half, y + half));
+      const TileWindows& tile = tileOf(i);
+      const Vec2i centre = tile.corner(i) + Vec2i::Constant(half);
+      samples.col(static_cast<Eigen::Index>(k)) = weighted(windowAt(tile.tile, centre.x(), centre.y()));
     }
     mean = samples.rowwise().mean();
     samples.colwise() -= mean;
@@ -223,8 +213,9 @@ NeighbourhoodSearch::Match NeighbourhoodSearch::nearest(const Descriptor& query,
   parameters.eps = kdTreeEps;
   impl_->tree->findNeighbors(best, query.data(), parameters);
   if (best.size() == 0) return bound;
-  const TileWindows& tile = impl_->cloud.tileOf(best.index());
-  return {tile.origin + DescriptorCloud::place(tile, best.index()) + Vec2i::Constant(impl_->half), best.distance()};
+  const std::size_t window = impl_->cloud.windows[best.index()];
+  const TileWindows& tile = impl_->tileOf(window);
+  return {tile.origin + tile.corner(window) + Vec2i::Constant(impl_->half), best.distance()};
 }
 
 NeighbourhoodSearch::Match NeighbourhoodSearch::at(const Vec2i& texel, const Descriptor& query) const {
