@@ -15,11 +15,11 @@ def read(path):
         raise UsageError(f"{path}: cannot be read ({e.strerror}); name a shot file") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as e:
         raise UsageError(f"{path}: got a file that is no TOML ({e}), expected a shot") from None
-    if "exemplar" in tables.get("texture", {}):
-        named = tables["texture"]["exemplar"]
-        # One picture is what a sequence is compared with: of several the first.
-        first = named[0] if isinstance(named, list) and named else named
-        tables["texture"]["exemplar"] = str((path.parent / first).resolve())
+    named = tables.get("texture", {}).get("exemplar", [])
+    # One picture is what a sequence is compared with: of several the first.
+    pictures = named if isinstance(named, list) else [named]
+    if pictures:
+        tables["texture"]["exemplar"] = str((path.parent / pictures[0]).resolve())
     tables.setdefault("shot", {}).setdefault("fps", 24.0)
     tables["shot"].setdefault("name", path.stem)
     return tables

@@ -38,6 +38,20 @@ def test_inspect_of_caches(folder):
     says(ebru("inspect", cache / "ball.####.vdb", "--set", "texture.method=x", expect=2), "[fluid] alone")
 
 
+def test_inspect_says_what_the_exemplars_have(folder):
+    exemplars = ROOT / "scenes/exemplars"
+    lists = {"exemplar": ["foam", "soup"], "height": ["foam_height", "soup_height"], "roughness": ["soup_height", "foam_height"]}
+    settings = []
+    for key, names in lists.items():
+        files_of_key = ", ".join(f'"{exemplars / name}.png"' for name in names)
+        settings += ["--set", f"texture.{key}=[{files_of_key}]"]
+    text = ebru("inspect", write_shot(folder), *settings).stdout
+    assert "foam.png, 256 x 256 texels" in text and "soup.png, 256 x 256 texels" in text, text
+    assert "maps: colour, height, roughness; synthesised from 4 components" in text and "features of about" in text, text
+    text = ebru("inspect", write_shot(folder)).stdout
+    assert "maps: colour; synthesised as they are" in text, text
+
+
 def test_preview_and_movie(folder):
     shot, out = write_shot(folder, last=3), folder / "out"
     run = render(shot, out, "--preview", "--frames", "1-2")
