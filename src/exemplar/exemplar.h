@@ -63,6 +63,14 @@ class Exemplar {
     const Vec2f p = uv - tileOrigin(tile).cast<float>();
     return p.minCoeff() >= 0.0f && (p.array() <= tileSize(tile).cast<float>().array()).all();
   }
+  /// Moves a coordinate of level 0 so that it is at least `margin` texels inside the image of its tile, or in its middle
+  /// where that is smaller.
+  Vec2f clampInside(const Vec2f& uv, float margin) const {
+    const int tile = tileAt(uv);
+    const Vec2f origin = tileOrigin(tile).cast<float>(), size = tileSize(tile).cast<float>();
+    const Vec2f inset = (0.5f * size).cwiseMin(margin);
+    return origin + (uv - origin).cwiseMax(inset).cwiseMin(size - inset);
+  }
   struct Place {
     int tile;
     Vec2f st;  ///< in [0, 1]^2 of the tile's image, t down; clamped

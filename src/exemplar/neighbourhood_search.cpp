@@ -126,6 +126,13 @@ struct NeighbourhoodSearch::Impl {
     }
   }
 
+  /// @param i  of the cloud
+  Match match(std::size_t i, float distance) const {
+    const std::size_t window = cloud.windows[i];
+    const TileWindows& tile = tileOf(window);
+    return {tile.origin + tile.corner(window) + Vec2i::Constant(half), distance};
+  }
+
   const TileWindows& tileOf(std::size_t window) const {
     return *std::find_if(tiles.begin(), tiles.end(), [&](const TileWindows& tile) { return window < tile.end(); });
   }
@@ -213,9 +220,20 @@ NeighbourhoodSearch::Match NeighbourhoodSearch::nearest(const Descriptor& query,
   parameters.eps = kdTreeEps;
   impl_->tree->findNeighbors(best, query.data(), parameters);
   if (best.size() == 0) return bound;
-  const std::size_t window = impl_->cloud.windows[best.index()];
-  const TileWindows& tile = impl_->tileOf(window);
-  return {tile.origin + tile.corner(window) + Vec2i::Constant(impl_->half), best.distance()};
+  return impl_->match(best.index(), best.distance());
+}
+
+std::size_t NeighbourhoodSearch::nearestFew(const Descriptor& query, std::span<Match> found) const {
+  std::vector<std::uint32_t> indices(found.size());
+  std::vector<float> distances(found.size());
+  nanoflann::KNNResultSet<float, std::uint32_t> result(found.size());
+  result.init(indices.data(), distances.data());
+  nanoflann::SearchParams parameters;
+  parameters.eps = kdTreeEps;
+  impl_->tree->findNeighbors(result, query.data(), parameters);
+  for (std::size_t k = 0; k < result.size(); ++k)
+    found[k] = impl_->match(indices[k], distances[k]);
+  return result.size();
 }
 
 NeighbourhoodSearch::Match NeighbourhoodSearch::at(const Vec2i& texel, const Descriptor& query) const {

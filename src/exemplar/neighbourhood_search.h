@@ -49,6 +49,8 @@ class NeighbourhoodSearch {
   /// or `bound` itself where nothing nearer than `bound.distanceSquared` is found; ties by position: the first image, the first
   /// row.
   Match nearest(const Descriptor& query, const Match& bound) const;
+  /// The windows nearest to the query, nearest first, as many as `found` holds or the tree has. @return how many
+  std::size_t nearestFew(const Descriptor& query, std::span<Match> found) const;
   /// The distance of the window at a texel, which is moved first, as `clampInside` does, if its window would not fit.
   Match at(const Vec2i& texel, const Descriptor& query) const;
   /// Moves a centre so that its window lies inside the image that the centre belongs to.

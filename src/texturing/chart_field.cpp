@@ -30,10 +30,6 @@ TextureSample ChartField::lookup(const SurfacePoint& point) const {
   if (count == 0) return sample;
   const TextureParticles& particles = nearest_.particles();
   const float reach = blendTexels * nearest_.texelWorld();
-  const auto chart = [&](std::size_t i) {
-    return Vec2f(particles.st[i] +
-                 particles.jacobian[i] * localTexels(particles, i, point.position, nearest_.texelWorld()));
-  };
   const float footprintTexels = point.footprintWorld / nearest_.texelWorld();
   Texel sum = Texel::Zero();
   OtherMaps others = noOtherMaps;
@@ -42,16 +38,24 @@ TextureSample ChartField::lookup(const SurfacePoint& point) const {
     const float falloff = std::max(0.0f, 1.0f - found[k].distanceSquared / (reach * reach));
     const float weight = falloff * falloff * falloff + 1e-12f;
     const std::size_t i = found[k].index;
-    const float width = footprintTexels * std::sqrt(std::abs(particles.jacobian[i].determinant()));
-    const Vec2f place = chart(i);
-    sum += weight * (residual_[i] + exemplar_->sampleFiltered(place, width));
-    if (exemplar_->hasOtherMaps()) exemplar_->addOtherMaps(place, width, weight, others);
+    const Vec2f step = localTexels(particles, i, point.position, nearest_.texelWorld());
+    const auto add = [&](const Vec2f& st, const Mat2f& jacobian, float share) {
+      const float width = footprintTexels * std::sqrt(std::abs(jacobian.determinant()));
+      const Vec2f place = st + jacobian * step;
+      sum += share * (residual_[i] + exemplar_->sampleFiltered(place, width));
+      if (exemplar_->hasOtherMaps()) exemplar_->addOtherMaps(place, width, share, others);
+    };
+    const float fade = particles.fade[i];
+    add(particles.st[i], particles.jacobian[i], (1.0f - fade) * weight);
+    if (fade > 0.0f) add(particles.fadingSt[i], particles.fadingJacobian[i], fade * weight);
     weights += weight;
   }
   for (Texel& other : others) other /= weights;
   take(exemplar_->decode(sum / weights, others), sample);
   const std::size_t first = found[0].index;
-  const Exemplar::Place place = exemplar_->normalised(chart(first));
+  const Exemplar::Place place = exemplar_->normalised(
+      particles.st[first] +
+      particles.jacobian[first] * localTexels(particles, first, point.position, nearest_.texelWorld()));
   sample.st = place.st;
   sample.exemplar = place.tile;
   sample.id = static_cast<float>(particles.id[first]);

@@ -17,6 +17,9 @@ constexpr float samePieceTexels = 0.35f;
 /// A new chart must be better by this share, or it is not worth a change.
 constexpr float margin = 0.02f;
 
+/// What every link across a seam costs, however alike its sides, in squared contrasts: seams should be short.
+constexpr float linkPenalty = 0.1f;
+
 struct Chart {
   Vec2f st;
   Mat2f jacobian;
@@ -72,7 +75,8 @@ class Exchange {
  public:
   Exchange(const OrientedPoints& points, const PointGraph& graph, const Exemplar& exemplar, float texelWorld,
            const TransportedTexture& transported, const SurfaceTexture& texture)
-      : charts_(points, texture, texelWorld),
+      : seamPenalty_(linkPenalty * exemplar.contrast() * exemplar.contrast()),
+        charts_(points, texture, texelWorld),
         graph_(graph),
         exemplar_(exemplar),
         transported_(transported),
@@ -111,6 +115,7 @@ class Exchange {
       const Vec2f theirs = charts_.placeAt(j, i);
       if (Charts::samePiece(theirs, chart.st)) continue;
       const Vec2f there = chart.st + chart.jacobian * charts_.local(i, j);
+      sum += 2.0f * seamPenalty_;
       sum += squaredDifference(here, exemplar_.sample(0, theirs));
       sum += squaredDifference(exemplar_.sample(0, there), texture_.colour[j]);
     }
@@ -120,6 +125,7 @@ class Exchange {
     return sum;
   }
 
+  float seamPenalty_;  ///< per end of a link
   Charts charts_;
   const PointGraph& graph_;
   const Exemplar& exemplar_;

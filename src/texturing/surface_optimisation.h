@@ -6,6 +6,8 @@
 #include "exemplar/neighbourhood_search.h"
 #include "surface/neighbourhood.h"
 #include "surface/point_graph.h"
+#include "texturing/rigid_fit.h"
+#include "texturing/surface_texture.h"
 
 namespace ebru {
 
@@ -17,13 +19,6 @@ namespace ebru {
 /// which stands in for the paper's sub-pixel shifts); proposals are weighted by how well their window fits, as in the
 /// robust energy of [Kwatra 2005, sec. 3.3]; and at the end each point takes the one proposal nearest to the mean,
 /// with its exemplar coordinate, so that no contrast is lost to averaging.
-
-/// The points of one level and their texture. Spans of equal length.
-struct SurfaceTexture {
-  std::span<Texel> colour;    ///< encoded
-  std::span<Vec2f> st;        ///< texels of level 0
-  std::span<Mat2f> jacobian;  ///< exemplar texels per surface texel, in the points' frames
-};
 
 /// Neighbourhoods of one window size over one set of points, and their matches.
 class WindowSet {
@@ -50,11 +45,6 @@ class WindowSet {
   /// Each point with a window takes the proposal nearest to its colour: colour, coordinate and Jacobian. Of those, if `only`
   /// is not empty, the points it marks.
   void choose(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const;
-  /// Whole pieces: the windows, best fit first, each take those of their points within `reach` (texels of the points' level)
-  /// that `only` marks and no other window took: colour, coordinate and Jacobian.
-  /// @return per point, 1 where the texture was replaced
-  std::vector<std::uint8_t> layPieces(const SurfaceTexture& texture, std::span<const std::uint8_t> only, float reach) const;
-
   /// Root mean square distance of each window to its match, relative to the exemplar's contrast.
   std::span<const float> errors() const { return errors_; }
 
@@ -73,16 +63,9 @@ class WindowSet {
   void flatten(const OrientedPoints& points, const PointGraph& graph, float texelWorld,
                std::span<const Mat2f> jacobian);
   void transpose(std::size_t pointCount);
-  NeighbourhoodSearch::Window raster(std::size_t w, std::span<const Texel> colour) const;
-  void matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Vec2f>& previous, bool everywhere);
-  float error(std::size_t w, std::span<const Texel> colour, const Vec2f& uv, const Mat2f& rotation) const;
-  /// One step on sum g |colour - exemplar(uv + R d)|^2 over position and angle.
-  void gaussNewtonStep(std::size_t w, std::span<const Texel> colour, Vec2f& uv, Mat2f& rotation) const;
+  void matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Placement>& previous, bool everywhere);
   /// Brings a match and its error up to date; no step is taken from an error of at most `goodEnough`.
   void refine(std::size_t w, std::span<const Texel> colour, int steps, float goodEnough);
-  Vec2f exemplarPlace(std::size_t w, const Vec2f& displacement) const {
-    return uv_[w] + rotation_[w] * displacement;
-  }
   void take(const Proposal& p, const SurfaceTexture& texture, std::size_t point) const;
   float fit(std::size_t w) const;
   float falloff(const Vec2f& displacement) const;
@@ -102,8 +85,7 @@ class WindowSet {
   std::vector<std::size_t> proposalOffsets_;  ///< points + 1, into proposals_
   std::vector<Proposal> proposals_;           ///< the transpose of members_
   std::vector<std::uint32_t> windowOfPoint_;  ///< window centred on a point, or none
-  std::vector<Vec2f> uv_;                 ///< per window: match of its centre, texels of level_
-  std::vector<Mat2f> rotation_;           ///< per window: small rotation of its match
+  std::vector<Placement> match_;          ///< per window, texels of level_
   std::vector<float> errors_;
 };
 

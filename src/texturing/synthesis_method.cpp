@@ -5,16 +5,20 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "surface/cell_grid.h"
 #include "surface/orientation_field.h"
 #include "surface/point_graph.h"
 #include "surface/point_index.h"
 #include "surface/poisson_sampling.h"
+#include "texturing/chart_fade.h"
 #include "texturing/chart_field.h"
+#include "exemplar/feature_size.h"
+#include "texturing/grid_transport.h"
 #include "texturing/open_exemplar.h"
+#include "texturing/piece_replacement.h"
 #include "texturing/seam_exchange.h"
 #include "texturing/surface_optimisation.h"
 #include "texturing/texture_transport.h"
+#include "texturing/texture_wear.h"
 
 namespace ebru {
 namespace {
@@ -24,45 +28,12 @@ constexpr float graphReach = 1.9f;         ///< of the 1-ring, in Poisson spacin
 constexpr int ringSize = 10;
 
 constexpr float goodFit = 0.15f;           ///< a window that fits this well (in contrasts) is not searched again
-constexpr float wornDistortion = 1.5f;     ///< texture that is stretched more is replaced,
-constexpr float staleDistortion = 1.25f;   ///< and with it what is stretched this much
-constexpr float pieceReachTexels = 24.0f;  ///< around it; the radius of a piece, too
+constexpr float radiusFeatures = 1.6f;      ///< radius of a piece, in features of the exemplar
+constexpr float windowFeatures = 2.0f;      ///< least width of the windows a piece is searched with
+constexpr float surroundingsTexels = 4.0f;  ///< around a piece, that its choice looks at
 constexpr int exchangeSweeps = 6;
-constexpr int bandRings = 5;               ///< healed on each side of a seam
-constexpr float transportStrength = 0.2f;  ///< lambda of eq. 2 where the texture has its usual gradient
-/// The transported texture loses its pull between these distortions: what is stretched should not be kept.
-constexpr float trustedDistortion = 1.2f, distrustedDistortion = 1.6f;
-
-/// The chart shows the exemplar here: it was not guessed and has not run off the edge.
-bool holds(const TextureParticles& particles, const std::vector<ParticleFate>& fates, const Exemplar& exemplar,
-           std::size_t i) {
-  return fates[i] != ParticleFate::orphan && exemplar.holds(particles.st[i]);
-}
-
-/// lambda_k: "a larger weight is given to the transported texture color at a point that has greater color gradient in its
-/// vicinity" [Kwatra 2007, sec. 5.2]; saturates at twice `transportStrength`. Negative where the transported texture is
-/// not to be kept: too distorted, only guessed, or run off the exemplar's edge.
-std::vector<float> transportWeights(const TextureParticles& particles, const std::vector<ParticleFate>& fates,
-                                    const Exemplar& exemplar, const PointGraph& graph) {
-  const std::vector<Texel>& colour = particles.colour;
-  std::vector<float> gradient(colour.size(), 0.0f);
-  parallelFor(colour.size(), 1024, [&](std::size_t i) {
-    const auto ring = graph.of(static_cast<std::uint32_t>(i));
-    if (ring.empty()) return;
-    float sum = 0.0f;
-    for (std::uint32_t j : ring) sum += (colour[j] - colour[i]).square().sum();
-    gradient[i] = std::sqrt(sum / static_cast<float>(ring.size()));
-  });
-  const auto usual = static_cast<float>(parallelSum(colour.size(), [&](std::size_t i) { return gradient[i]; }) /
-                                        std::max<double>(1.0, static_cast<double>(colour.size())));
-  parallelFor(gradient.size(), 4096, [&](std::size_t i) {
-    const float trust = (distrustedDistortion - distortion(particles.jacobian[i])) /
-                        (distrustedDistortion - trustedDistortion);
-    const float lambda = 2.0f * transportStrength * gradient[i] / (gradient[i] + usual + 1e-6f);
-    gradient[i] = trust > 0.0f && holds(particles, fates, exemplar, i) ? lambda * std::min(trust, 1.0f) : -1.0f;
-  });
-  return gradient;
-}
+constexpr int bandRings = 5;                ///< healed on each side of a seam
+constexpr int mendingSweeps = 3;            ///< of exchange, after the votes
 
 /// Charts to start from where there is no texture yet: pieces of half the exemplar's size in a box projection, each from a
 /// random place of it; of several images, half the size of the smallest, each from a random one. Optimisation heals their
@@ -109,6 +80,7 @@ class SynthesisMethod : public TextureMethod {
  public:
   SynthesisMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
       : texelWorld_(static_cast<float>(options.texel_size)),
+        throughGrid_(options.transport == "grid"),
         iterations_(options.iterations),
         seed_(seed),
         times_(times),
@@ -119,6 +91,9 @@ class SynthesisMethod : public TextureMethod {
       wide_.emplace_back(*exemplar_, level, 17);
       narrow_.emplace_back(*exemplar_, level, 9);
     }
+    const float feature = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(*exemplar_);
+    pieces_ = {radiusFeatures * feature, surroundingsTexels};
+    while (pieceLevel_ + 1 < wide_.size() && static_cast<float>(17 << pieceLevel_) < windowFeatures * feature) ++pieceLevel_;
   }
 
   void start(const FluidFrame& first) override;
@@ -152,10 +127,13 @@ class SynthesisMethod : public TextureMethod {
   }
 
   float texelWorld_;
+  bool throughGrid_;
   int iterations_;  ///< rounds of optimisation per window size in later frames
   std::uint64_t seed_;
   PhaseTimes* times_;
   std::shared_ptr<const Exemplar> exemplar_;
+  PieceShape pieces_;
+  std::size_t pieceLevel_ = 0;                      ///< whose windows of 17 hold a feature
   std::vector<NeighbourhoodSearch> wide_, narrow_;  ///< per level: windows of 17 and 9
   std::shared_ptr<const TextureParticles> particles_;
   std::shared_ptr<const TextureField> field_;
@@ -257,7 +235,8 @@ void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
   std::vector<ParticleFate> fates;
   {
     const PhaseTimer timer(times_, "transport");
-    fates = carryParticles(from, to, texelWorld_, particles);
+    fates = throughGrid_ ? transportThroughGrid(from, to, *exemplar_, texelWorld_, seed_, particles)
+                         : carryParticles(from, to, texelWorld_, particles);
   }
   {
     const PhaseTimer timer(times_, "sampling");
@@ -270,59 +249,28 @@ void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
   publish(std::move(particles));
 }
 
-/// Points to synthesise anew: those whose chart is worn out, and around them what is stale.
-std::vector<std::uint8_t> wornRegion(const TextureParticles& particles, const std::vector<ParticleFate>& fates,
-                                     const Exemplar& exemplar, float reachWorld) {
-  std::vector<float> wear(particles.size(), 0.0f);
-  parallelFor(wear.size(), 1024, [&](std::size_t i) {
-    if (fates[i] == ParticleFate::still) return;
-    wear[i] = holds(particles, fates, exemplar, i) ? distortion(particles.jacobian[i]) : 1e9f;
-  });
-  // A few of the worn points stand for all of them.
-  CellGrid seeds(reachWorld, 1024);
-  const auto seedWithin = [&](std::size_t i, float radius) {
-    return seeds.anyNear(particles.position[i], radius, [&](std::uint32_t j) {
-      return (particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
-             particles.normal[j].dot(particles.normal[i]) > 0.0f;
-    });
-  };
-  for (std::size_t i = 0; i < wear.size(); ++i)
-    if (wear[i] > wornDistortion && !seedWithin(i, 0.25f * reachWorld))
-      seeds.insert(static_cast<std::uint32_t>(i), particles.position[i]);
-  std::vector<std::uint8_t> region(particles.size());
-  parallelFor(region.size(), 512, [&](std::size_t i) {
-    region[i] = wear[i] > staleDistortion && seedWithin(i, reachWorld);
-  });
-  return region;
-}
-
 void SynthesisMethod::refit(TextureParticles& particles, const std::vector<ParticleFate>& fates) {
+  advanceFades(particles);
   parallelFor(particles.size(), 1024, [&](std::size_t i) {
     if (fates[i] != ParticleFate::orphan) return;
     layPiece(*exemplar_, texelWorld_, seed_, particles, i);
     particles.colour[i] = exemplar_->sample(0, particles.st[i]);
   });
-  const auto any = [](const std::vector<std::uint8_t>& marks) {
-    return std::find(marks.begin(), marks.end(), 1) != marks.end();
-  };
-  const std::vector<std::uint8_t> region = wornRegion(particles, fates, *exemplar_, pieceReachTexels * texelWorld_);
-  if (iterations_ == 0 || !any(region)) return;
+  if (iterations_ == 0) return;
+  const std::vector<float> wear = textureWear(particles, fates, *exemplar_);
+  const std::vector<std::uint8_t> region = wornRegion(particles, wear, pieces_.radius * texelWorld_);
+  if (std::find(region.begin(), region.end(), 1) == region.end()) return;
+  const ChartSnapshot before{particles.st, particles.jacobian};
   LevelView view = firstPoints(particles, particles.size());
   const PointGraph graph = ringGraph(view.points, texelWorld_);
   const std::vector<Texel> colour(particles.colour);
-  const std::vector<float> weight = transportWeights(particles, fates, *exemplar_, graph);
-  // Only windows larger than a feature see that a stretched feature is not one of the exemplar's.
-  const NeighbourhoodSearch& large = wide_[std::min<std::size_t>(1, wide_.size() - 1)];
-  WindowSet pieces(view.points, graph, large, *exemplar_, 0, texelWorld_, 0.25f, region, view.texture.jacobian);
-  pieces.matchOwnCharts(view.texture, goodFit);
-  pieces.matchNearest(view.texture, goodFit, true);
-  const std::vector<std::uint8_t> replaced = pieces.layPieces(view.texture, region, pieceReachTexels);
-  exchangeCharts(view.points, graph, *exemplar_, texelWorld_, region, {colour, weight}, exchangeSweeps, view.texture);
-  for (std::size_t i = 0; i < replaced.size(); ++i)
-    if (replaced[i]) particles.age[i] = 0.0f;
-
+  const std::vector<float> weight = transportWeights(particles, wear, graph);
+  const auto exchange = [&](const std::vector<std::uint8_t>& only, int sweeps) {
+    exchangeCharts(view.points, graph, *exemplar_, texelWorld_, only, {colour, weight}, sweeps, view.texture);
+  };
+  replacePieces(view.points, graph, *exemplar_, wide_[pieceLevel_], texelWorld_, pieces_, region, wear, view.texture);
+  exchange(region, exchangeSweeps);
   const std::vector<std::uint8_t> band = seamBand(view.points, graph, texelWorld_, region, bandRings, view.texture);
-  if (!any(band)) return;
   for (const NeighbourhoodSearch* search : {&wide_[0], &narrow_[0]}) {
     WindowSet windows(view.points, graph, *search, *exemplar_, 0, texelWorld_, 0.5f, band, view.texture.jacobian);
     windows.matchOwnCharts(view.texture, goodFit);
@@ -332,6 +280,9 @@ void SynthesisMethod::refit(TextureParticles& particles, const std::vector<Parti
     }
     windows.choose(view.texture, band);
   }
+  // What the votes left in splinters grows together again.
+  exchange(band, mendingSweeps);
+  startFades(before, region, fates, particles);
 }
 
 }  // namespace

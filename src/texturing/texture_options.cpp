@@ -39,6 +39,18 @@ OptionFields fields(TextureOptions& o) {
        .help = "metres of surface per exemplar texel",
        .lower = 1e-9,
        .upper = 1e6},
+      {.key = "feature_size",
+       .target = &o.feature_size,
+       .unit = "texel",
+       .help = "diameter of the exemplar's features, which pieces of texture are made larger than; 0: measured by its autocorrelation "
+               "(`ebru inspect` prints it; method synthesis)",
+       .lower = 0.0,
+       .upper = 1e4},
+      {.key = "transport",
+       .target = &o.transport,
+       .help = "particles: the texture rides on particles; grid: every frame has points of its own, which back-tracked grid "
+               "coordinates lead to the texture before [Kwatra 2007, sec. 6] (method synthesis)",
+       .choices = {"particles", "grid"}},
       {.key = "iterations",
        .target = &o.iterations,
        .help = "rounds of optimisation per window size after the first frame; 0: the texture is transported only "

@@ -21,6 +21,8 @@ struct TextureOptions {
   double weight_alpha = 1.0;
   double weight_emission = 1.0;
   double texel_size = 0.005;
+  double feature_size = 0.0;
+  std::string transport = "particles";
   int iterations = 2;
 };
 

@@ -32,6 +32,9 @@ std::size_t TextureParticles::append(std::size_t count) {
   orientation.resize(total, Vec3f::Zero());
   st.resize(total, Vec2f::Zero());
   jacobian.resize(total, Mat2f::Identity());
+  fadingSt.resize(total, Vec2f::Zero());
+  fadingJacobian.resize(total, Mat2f::Identity());
+  fade.resize(total, 0.0f);
   colour.resize(total, Texel::Zero());
   age.resize(total, 0.0f);
   id.resize(total);
@@ -45,6 +48,9 @@ void TextureParticles::reorder(const std::vector<std::uint32_t>& order) {
   gather(orientation, order);
   gather(st, order);
   gather(jacobian, order);
+  gather(fadingSt, order);
+  gather(fadingJacobian, order);
+  gather(fade, order);
   gather(colour, order);
   gather(age, order);
   gather(id, order);
@@ -56,6 +62,9 @@ void TextureParticles::save(StateWriter& writer) const {
   writer.array("orientation", orientation);
   writer.array("st", st);
   writer.array("jacobian", jacobian);
+  writer.array("fadingSt", fadingSt);
+  writer.array("fadingJacobian", fadingJacobian);
+  writer.array("fade", fade);
   writer.array("colour", colour);
   writer.array("age", age);
   writer.array("id", id);
@@ -68,6 +77,9 @@ void TextureParticles::load(const StateReader& reader) {
   orientation = reader.array<Vec3f>("orientation");
   st = reader.array<Vec2f>("st");
   jacobian = reader.array<Mat2f>("jacobian");
+  fadingSt = reader.array<Vec2f>("fadingSt");
+  fadingJacobian = reader.array<Mat2f>("fadingJacobian");
+  fade = reader.array<float>("fade");
   colour = reader.array<Texel>("colour");
   age = reader.array<float>("age");
   id = reader.array<std::uint32_t>("id");

@@ -16,12 +16,16 @@ namespace ebru {
 ///
 /// Each carries a chart: a place p near particle i shows the exemplar at
 ///     st[i] + jacobian[i] * ((p - position[i]) in the frame (orientation, secondAxis), in texels).
+/// While a replaced chart fades, it rides along, and `fade` is its share of the colour.
 struct TextureParticles {
   std::vector<Vec3f> position;     ///< world, metres, on the surface
   std::vector<Vec3f> normal;       ///< unit, out of the fluid
   std::vector<Vec3f> orientation;  ///< unit tangent
   std::vector<Vec2f> st;           ///< exemplar coordinate, texels (see Exemplar)
   std::vector<Mat2f> jacobian;     ///< exemplar texels per texel of surface; a rotation where the texture is not distorted
+  std::vector<Vec2f> fadingSt;         ///< chart that was replaced
+  std::vector<Mat2f> fadingJacobian;
+  std::vector<float> fade;         ///< share of that chart in the picture; 0: none
   std::vector<Texel> colour;       ///< exemplar's texel; what the chart shows at the particle, or what synthesis made of it
   std::vector<float> age;          ///< frames this piece of texture has been carried; still frames do not count
   std::vector<std::uint32_t> id;   ///< unique over the run

@@ -17,10 +17,29 @@ namespace {
 constexpr float probeTexels = 0.5f;      ///< length of the carried axes
 constexpr float maxDropVoxels = 2.0f;    ///< a particle farther off the new surface has left it
 constexpr float crowdedTexels = 0.60f;
-constexpr float gapTexels = 0.95f;
 constexpr float refillTexels = 0.75f;
 constexpr float chartReachTexels = 6.0f; ///< how far a chart is extended into new surface
 constexpr float stillSurfaceVoxels = 0.1f;
+
+/// Where the flow takes a particle and the ends of its axes.
+struct CarriedFrame {
+  Vec3f place, ends[2];
+  bool rests;
+};
+
+CarriedFrame carryFrame(const Flow& flow, const FluidFrame& to, float texelWorld, const TextureParticles& particles,
+                        std::size_t i) {
+  const Vec3f& x = particles.position[i];
+  const Vec3f& o = particles.orientation[i];
+  const float probe = probeTexels * texelWorld;
+  const Vec3f ends[2] = {x + probe * o, x + probe * secondAxis(particles.normal[i], o)};
+  CarriedFrame frame{flow.forward(x), {flow.forward(ends[0]), flow.forward(ends[1])}, false};
+  Eigen::Matrix<float, 1, 1> distance;
+  // The axes, too: at the centre of an eddy the place rests and the frame turns.
+  frame.rests = frame.place == x && frame.ends[0] == ends[0] && frame.ends[1] == ends[1] &&
+                to.signedDistance.sample(x, distance) && std::abs(distance[0]) < stillSurfaceVoxels * to.voxelSizeWorld;
+  return frame;
+}
 
 /// Inverse of the tangential deformation gradient, or nothing where the step folds or tears.
 std::optional<Mat2f> inverseDeformation(const Vec3f& a, const Vec3f& b, const Vec3f& first, const Vec3f& second) {
@@ -36,32 +55,29 @@ bool carryOne(const Flow& flow, const FluidFrame& to, float texelWorld, TextureP
   Vec3f& x = particles.position[i];
   Vec3f& n = particles.normal[i];
   Vec3f& o = particles.orientation[i];
-  const float probe = probeTexels * texelWorld;
-  const Vec3f t = secondAxis(n, o);
-  const Vec3f ends[2] = {x + probe * o, x + probe * t};
-  const Vec3f carried = flow.forward(x);
-  const Vec3f carriedEnds[2] = {flow.forward(ends[0]), flow.forward(ends[1])};
-  Eigen::Matrix<float, 1, 1> distance;
-  const float voxel = to.voxelSizeWorld;
-  // The axes, too: at the centre of an eddy the place rests and the frame turns.
-  if (carried == x && carriedEnds[0] == ends[0] && carriedEnds[1] == ends[1] &&
-      to.signedDistance.sample(x, distance) && std::abs(distance[0]) < stillSurfaceVoxels * voxel) {
+  const CarriedFrame frame = carryFrame(flow, to, texelWorld, particles, i);
+  if (frame.rests) {
     fate = ParticleFate::still;
     return true;
   }
   fate = ParticleFate::carried;
+  const Vec3f& carried = frame.place;
+  const float probe = probeTexels * texelWorld;
+  const float voxel = to.voxelSizeWorld;
   Vec3f landed, normal;
   if (!to.closestPoint(carried, landed, normal) || (landed - carried).norm() > maxDropVoxels * voxel) return false;
 
-  const Vec3f a = (carriedEnds[0] - carried) / probe;
-  const Vec3f b = (carriedEnds[1] - carried) / probe;
+  const Vec3f a = (frame.ends[0] - carried) / probe;
+  const Vec3f b = (frame.ends[1] - carried) / probe;
   if (b.cross(a).dot(normal) < 0.0f) return false;  // it would come down on the other side of a sheet
   Vec3f first = a - a.dot(normal) * normal;
   if (first.norm() < 1e-3f) first = transportTangent(o, n, normal);
   first.normalize();
   const Vec3f second = secondAxis(normal, first);
-  if (const std::optional<Mat2f> inverse = inverseDeformation(a, b, first, second))
+  if (const std::optional<Mat2f> inverse = inverseDeformation(a, b, first, second)) {
     particles.jacobian[i] = particles.jacobian[i] * *inverse;
+    if (particles.fade[i] > 0.0f) particles.fadingJacobian[i] = particles.fadingJacobian[i] * *inverse;
+  }
   x = landed;
   n = normal;
   o = first;
@@ -116,7 +132,11 @@ ParticleFate extendChart(const PointIndex& index, std::size_t oldCount, const Ex
   const std::size_t j = nearest.index;
   particles.orientation[i] = transportTangent(particles.orientation[j], particles.normal[j], n).normalized();
   particles.jacobian[i] = particles.jacobian[j];
-  particles.st[i] = particles.st[j] + particles.jacobian[j] * localTexels(particles, j, p, texelWorld);
+  const Vec2f step = localTexels(particles, j, p, texelWorld);
+  particles.st[i] = particles.st[j] + particles.jacobian[j] * step;
+  particles.fadingSt[i] = particles.fadingSt[j] + particles.fadingJacobian[j] * step;
+  particles.fadingJacobian[i] = particles.fadingJacobian[j];
+  particles.fade[i] = particles.fade[j];
   particles.colour[i] =
       particles.colour[j] + exemplar.sample(0, particles.st[i]) - exemplar.sample(0, particles.st[j]);
   particles.age[i] = particles.age[j];
@@ -124,6 +144,11 @@ ParticleFate extendChart(const PointIndex& index, std::size_t oldCount, const Ex
 }
 
 }  // namespace
+
+bool rests(const FluidFrame& from, const FluidFrame& to, float texelWorld, const TextureParticles& particles,
+           std::size_t i) {
+  return carryFrame(Flow(&from, &to), to, texelWorld, particles, i).rests;
+}
 
 std::vector<ParticleFate> carryParticles(const FluidFrame& from, const FluidFrame& to, float texelWorld,
                                          TextureParticles& particles) {

@@ -9,6 +9,9 @@ namespace ebru {
 
 /// Carrying texture particles from one surface to the next [Kwatra 2007, sec. 6; Rasmussen et al. 2004].
 
+/// A place farther than this from every particle is a gap.
+constexpr float gapTexels = 0.95f;
+
 /// How a particle came to the newest frame.
 enum class ParticleFate : std::uint8_t {
   still,      ///< did not move: not written at all
@@ -16,6 +19,10 @@ enum class ParticleFate : std::uint8_t {
   inserted,   ///< fills a gap with the chart of the nearest particle
   orphan,     ///< fills new surface with no particle near: its chart is a guess
 };
+
+/// The fluid rests at particle i: neither it nor its axes move, and the surface is still there.
+bool rests(const FluidFrame& from, const FluidFrame& to, float texelWorld, const TextureParticles& particles,
+           std::size_t i);
 
 /// Moves particles with Flow::forward (RK3), projects them to the surface of `to`, and drops those that left it.
 /// The frame follows eq. 4 of Kwatra: the orientation is carried as a vector, head and tail. The Jacobian is multiplied

@@ -2,42 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include "surface/point_graph.h"
-#include "textures.h"
+#include "textured_plane.h"
 
 namespace ebru {
 namespace {
 
-constexpr int side = 24;  // points, one texel apart, in the plane z = 0
-constexpr float texelWorld = 0.01f;
+constexpr int sidePoints = 24;
+constexpr float texelWorld = test::TexturedPlane::texelWorld;
 
-/// A plane of points whose charts are of one piece, or of two that meet at x = seam.
-struct Plane {
-  Exemplar exemplar{64, 64, test::texelsOf(64, test::discs)};
-  std::vector<Vec3f> positions, normals, orientations;
-  std::vector<Texel> colour;
-  std::vector<Vec2f> st;
-  std::vector<Mat2f> jacobian;
-  std::vector<std::uint8_t> all;
-  PointGraph graph;
-
-  explicit Plane(int seam = side, const Vec2f& shift = Vec2f::Zero()) {
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        positions.emplace_back(texelWorld * static_cast<float>(x), -texelWorld * static_cast<float>(y), 0.0f);
-        normals.emplace_back(0.0f, 0.0f, 1.0f);
-        orientations.emplace_back(1.0f, 0.0f, 0.0f);
-        st.push_back(Vec2f(static_cast<float>(x) + 12.5f, static_cast<float>(y) + 12.5f) +
-                     (x < seam ? Vec2f(Vec2f::Zero()) : shift));
-        jacobian.push_back(Mat2f::Identity());
-        colour.push_back(exemplar.sample(0, st.back()));
-      }
-    all.assign(positions.size(), 1);
-    graph = buildPointGraph(positions, normals, 1.9f * texelWorld, 10);
-  }
-
-  OrientedPoints points() const { return {positions, normals, orientations}; }
-  SurfaceTexture texture() { return {colour, st, jacobian}; }
+struct Plane : test::TexturedPlane {
+  explicit Plane(int seam = sidePoints, const Vec2f& shift = Vec2f::Zero()) : TexturedPlane(sidePoints, seam, shift) {}
   std::vector<std::uint8_t> band(int rings) { return seamBand(points(), graph, texelWorld, all, rings, texture()); }
   void exchange(float weight = -1.0f, int sweeps = 6) {
     const std::vector<Texel> before = colour;
@@ -67,7 +41,7 @@ TEST(ExchangeCharts, OnePieceStaysAsItIs) {
 
 TEST(ExchangeCharts, AStrayPointTakesTheChartAroundIt) {
   Plane plane;
-  const std::size_t stray = side * 11 + 12;
+  const std::size_t stray = plane.at(12, 11);
   const Vec2f right = plane.st[stray];
   plane.st[stray] += Vec2f(7.3f, -4.1f);
   plane.jacobian[stray] = Eigen::Rotation2Df(1.0f).toRotationMatrix();
@@ -79,7 +53,7 @@ TEST(ExchangeCharts, AStrayPointTakesTheChartAroundIt) {
 }
 
 TEST(ExchangeCharts, ASeamBetweenTwoPiecesGetsCheaper) {
-  Plane plane(side / 2, Vec2f(5.3f, 6.7f));
+  Plane plane(sidePoints / 2, Vec2f(5.3f, 6.7f));
   const double before = plane.seamCost();
   ASSERT_GT(before, 1.0);
   plane.exchange();
@@ -87,15 +61,15 @@ TEST(ExchangeCharts, ASeamBetweenTwoPiecesGetsCheaper) {
 }
 
 TEST(ExchangeCharts, AStrongPullKeepsTheTransportedTexture) {
-  Plane plane(side / 2, Vec2f(5.3f, 6.7f));
+  Plane plane(sidePoints / 2, Vec2f(5.3f, 6.7f));
   const std::vector<Vec2f> before = plane.st;
   plane.exchange(1e6f);
   EXPECT_EQ(plane.st, before);
 }
 
 TEST(ExchangeCharts, OnlyWhatIsMarkedChanges) {
-  Plane plane(side / 2, Vec2f(5.3f, 6.7f));
-  for (std::size_t i = 0; i < plane.all.size(); ++i) plane.all[i] = i / side < side / 2;
+  Plane plane(sidePoints / 2, Vec2f(5.3f, 6.7f));
+  for (std::size_t i = 0; i < plane.all.size(); ++i) plane.all[i] = i / sidePoints < sidePoints / 2;
   const std::vector<Vec2f> before = plane.st;
   plane.exchange();
   EXPECT_NE(plane.st, before);
@@ -104,13 +78,13 @@ TEST(ExchangeCharts, OnlyWhatIsMarkedChanges) {
 }
 
 TEST(SeamBand, LiesAlongTheSeam) {
-  Plane plane(side / 2, Vec2f(5.0f, 0.0f));
+  Plane plane(sidePoints / 2, Vec2f(5.0f, 0.0f));
   for (const int rings : {0, 3}) {
     const std::vector<std::uint8_t> band = plane.band(rings);
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        const int away = x < side / 2 ? side / 2 - 1 - x : x - side / 2;
-        EXPECT_EQ(band[static_cast<std::size_t>(side * y + x)] != 0, away <= rings) << x << ", " << y;
+    for (int y = 0; y < sidePoints; ++y)
+      for (int x = 0; x < sidePoints; ++x) {
+        const int away = x < sidePoints / 2 ? sidePoints / 2 - 1 - x : x - sidePoints / 2;
+        EXPECT_EQ(band[plane.at(x, y)] != 0, away <= rings) << x << ", " << y;
       }
   }
 }

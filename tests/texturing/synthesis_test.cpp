@@ -107,7 +107,7 @@ TEST(Synthesis, FirstFrameIsMadeOfTheExemplarsWindows) {
   EXPECT_LT(synthesised, 0.35 * random) << "random order: " << random;
 }
 
-/// Ages of the particles in the middle of a slab's top after five frames of shear, which stretch by 1.55.
+/// Ages of the particles in the middle of a slab's top after seven frames of shear, which stretch by 1.8.
 std::vector<float> agesInShear(int iterations) {
   const test::Folder folder;
   TextureOptions options;
@@ -119,7 +119,7 @@ std::vector<float> agesInShear(int iterations) {
   const std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 1, nullptr);
   auto from = test::slab(1, shear);
   method->start(*from);
-  for (int f = 2; f <= 6; ++f) {
+  for (int f = 2; f <= 8; ++f) {
     auto to = test::slab(f, shear);
     method->advance(*from, *to);
     from = std::move(to);
