@@ -11,6 +11,9 @@ namespace {
 /// A speed no fluid has; keeps the number of sub-steps bounded whatever a source says.
 constexpr float maxSubSteps = 1024.0f;
 
+/// Ralston's, third order.
+constexpr float firstWeight = 2.0f / 9.0f, secondWeight = 1.0f / 3.0f, thirdWeight = 4.0f / 9.0f;
+
 }  // namespace
 
 Flow::Flow(const FluidFrame* from, const FluidFrame* to)
@@ -25,40 +28,92 @@ Flow::Flow(const FluidFrame* from, const FluidFrame* to)
       voxelSizeWorld_ = std::min(voxelSizeWorld_, frame->voxelSizeWorld);
 }
 
-bool Flow::velocity(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec) const {
-  Vec3f a, b;
+bool Flow::ends(const Vec3f& pWorld, Vec3f& a, Vec3f& b) const {
   const bool hasA = from_ && from_->velocity->sample(pWorld, a);
   const bool hasB = to_ && to_->velocity->sample(pWorld, b);
-  if (hasA && hasB)
-    velocityWorldPerSec = a + time * (b - a);
-  else if (hasA)
-    velocityWorldPerSec = a;
-  else if (hasB)
-    velocityWorldPerSec = b;
+  if (!hasA) a = b;
+  if (!hasB) b = a;
   return hasA || hasB;
 }
 
+bool Flow::velocity(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec) const {
+  Vec3f a, b;
+  if (!ends(pWorld, a, b)) return false;
+  velocityWorldPerSec = a + time * (b - a);
+  return true;
+}
+
+bool Flow::velocities(const Vec3f& pWorld, float time, Vec3f& v, float otherTime, Vec3f& other) const {
+  Vec3f a, b;
+  if (!ends(pWorld, a, b)) return false;
+  v = a + time * (b - a);
+  other = a + otherTime * (b - a);
+  return true;
+}
+
+bool Flow::gradient(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec, Mat3f& gradient) const {
+  Vec3f a, b;
+  Mat3f ga, gb;
+  if (!from_ || !to_ || !from_->velocity->sampleWithGradient(pWorld, a, ga) ||
+      !to_->velocity->sampleWithGradient(pWorld, b, gb))
+    return false;
+  velocityWorldPerSec = a + time * (b - a);
+  gradient = ga + time * (gb - ga);
+  return true;
+}
+
+int Flow::subSteps(float travelWorld) const {
+  return static_cast<int>(std::clamp(std::ceil(travelWorld / voxelSizeWorld_), 1.0f, maxSubSteps));
+}
+
+bool Flow::forwardWithAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes) const {
+  Vec3f k1, kEnd;
+  Mat3f g;
+  const float dt = static_cast<float>(secondsPerFrame_);
+  if (!velocities(pWorld, 0.0f, k1, 1.0f, kEnd)) return false;
+  const float travelWorld = std::max(k1.norm(), kEnd.norm()) * dt;
+  if (!std::isfinite(travelWorld)) return false;
+  const int steps = subSteps(travelWorld);
+  const float h = 1.0f / static_cast<float>(steps), hSeconds = h * dt;
+  Vec3f p = pWorld;
+  Eigen::Matrix<float, 3, 2> m = axes;
+  for (int i = 0; i < steps; ++i) {
+    const float t = h * static_cast<float>(i);
+    Vec3f k2, k3;
+    if (!gradient(p, t, k1, g)) return false;
+    const Eigen::Matrix<float, 3, 2> m1 = g * m;
+    if (!gradient(p + (0.5f * hSeconds) * k1, t + 0.5f * h, k2, g)) return false;
+    const Eigen::Matrix<float, 3, 2> m2 = g * (m + (0.5f * hSeconds) * m1);
+    if (!gradient(p + (0.75f * hSeconds) * k2, t + 0.75f * h, k3, g)) return false;
+    const Eigen::Matrix<float, 3, 2> m3 = g * (m + (0.75f * hSeconds) * m2);
+    const Vec3f displacement = hSeconds * (firstWeight * k1 + secondWeight * k2 + thirdWeight * k3);
+    if ((displacement.array() != 0.0f).any()) p += displacement;
+    const Eigen::Matrix<float, 3, 2> turned = hSeconds * (firstWeight * m1 + secondWeight * m2 + thirdWeight * m3);
+    if ((turned.array() != 0.0f).any()) m += turned;
+  }
+  pWorld = p;
+  axes = m;
+  return true;
+}
+
 Vec3f Flow::carry(const Vec3f& pWorld, float startTime, float direction) const {
-  Vec3f k1 = Vec3f::Zero();
-  if (!velocity(pWorld, startTime, k1)) return pWorld;
-  Vec3f kEnd = k1;
-  velocity(pWorld, startTime + direction, kEnd);
+  Vec3f k1 = Vec3f::Zero(), kEnd = Vec3f::Zero();
+  if (!velocities(pWorld, startTime, k1, startTime + direction, kEnd)) return pWorld;
   const float dt = static_cast<float>(secondsPerFrame_);
   const float travelWorld = std::max(k1.norm(), kEnd.norm()) * dt;
   if (!std::isfinite(travelWorld)) return pWorld;
-  const int steps = static_cast<int>(std::clamp(std::ceil(travelWorld / voxelSizeWorld_), 1.0f, maxSubSteps));
+  const int steps = subSteps(travelWorld);
   const float h = direction / static_cast<float>(steps);  // frames
   const float hSeconds = h * dt;
   Vec3f p = pWorld;
   for (int i = 0; i < steps; ++i) {
     const float t = startTime + h * static_cast<float>(i);
-    velocity(p, t, k1);
+    if (i > 0) velocity(p, t, k1);
     Vec3f k2 = k1;
     velocity(p + (0.5f * hSeconds) * k1, t + 0.5f * h, k2);
     Vec3f k3 = k2;
     velocity(p + (0.75f * hSeconds) * k2, t + 0.75f * h, k3);
-    // Ralston's third-order weights: 2/9, 1/3, 4/9.
-    const Vec3f displacement = hSeconds * ((2.0f / 9.0f) * k1 + (1.0f / 3.0f) * k2 + (4.0f / 9.0f) * k3);
+    const Vec3f displacement = hSeconds * (firstWeight * k1 + secondWeight * k2 + thirdWeight * k3);
     // Not added when zero: it would turn a coordinate of -0 into +0.
     if ((displacement.array() != 0.0f).any()) p += displacement;
     k1 = k3;  // the last known one, in case the next is not

@@ -22,12 +22,21 @@ class Flow {
   /// comes back bit for bit, so does one whose velocity is unknown. Where it becomes unknown on the way, the
   /// last known one is kept.
   Vec3f forward(const Vec3f& pWorld) const;
-  /// The same from time 1 back to 0.
+  /// `forward`, and where it takes two small displacements: the deformation gradient, integrated along the same sub-steps, times
+  /// `axes` (columns, world). They come back bit for bit where neither velocity nor gradient is other than zero.
+  /// @return false, both arguments as they were, where a frame does not know the gradient of its velocity
+  bool forwardWithAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes) const;
+  /// The same as `forward` from time 1 back to 0.
   Vec3f backward(const Vec3f& pWorld) const;
 
   double secondsPerFrame() const { return secondsPerFrame_; }
 
  private:
+  /// Velocities of both frames; where only one knows it, its own for both. @return false where neither does
+  bool ends(const Vec3f& pWorld, Vec3f& a, Vec3f& b) const;
+  bool velocities(const Vec3f& pWorld, float time, Vec3f& v, float otherTime, Vec3f& other) const;
+  int subSteps(float travelWorld) const;
+  bool gradient(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec, Mat3f& gradient) const;
   Vec3f carry(const Vec3f& pWorld, float startTime, float direction) const;
 
   const FluidFrame* from_;

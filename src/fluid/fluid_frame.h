@@ -17,6 +17,11 @@ class VelocityField {
   /// @param velocityWorldPerSec  written when the field is known at `pWorld`, else untouched
   /// @return false where the field knows nothing (farther off the fluid than it was extended)
   virtual bool sample(const Vec3f& pWorld, Vec3f& velocityWorldPerSec) const = 0;
+  /// As `sample`, with the gradient (row = component, per second).
+  /// @return false, both untouched, where the field or its gradient is not known; a field need not offer one
+  virtual bool sampleWithGradient(const Vec3f& /*pWorld*/, Vec3f& /*velocityWorldPerSec*/, Mat3f& /*gradient*/) const {
+    return false;
+  }
 };
 
 /// Immutable once loaded; const members are safe to call concurrently. An empty frame (no fluid) has an empty

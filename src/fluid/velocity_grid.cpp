@@ -375,6 +375,15 @@ bool VelocityGrid::sample(const Vec3f& pWorld, Vec3f& velocityWorldPerSec) const
   return true;
 }
 
+bool VelocityGrid::sampleWithGradient(const Vec3f& pWorld, Vec3f& velocityWorldPerSec, Mat3f& gradient) const {
+  Vec3f v;
+  Mat3f g;
+  if (!samples_.sampleWithGradient(pWorld, v, g) || std::isnan(v.x())) return false;
+  velocityWorldPerSec = v;
+  gradient = g;
+  return true;
+}
+
 std::shared_ptr<const VelocityGrid> extendVelocity(const RawVelocity& raw, const SurfaceGeometry& surface,
                                                    double framesPerSecond, const std::string& where) {
   requirePlausible(raw, surface, framesPerSecond, where);

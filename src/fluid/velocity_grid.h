@@ -36,6 +36,7 @@ class VelocityGrid : public VelocityField {
  public:
   explicit VelocityGrid(SampledGrid<3> samples) : samples_(std::move(samples)) {}
   bool sample(const Vec3f& pWorld, Vec3f& velocityWorldPerSec) const override;
+  bool sampleWithGradient(const Vec3f& pWorld, Vec3f& velocityWorldPerSec, Mat3f& gradient) const override;
   const SampledGrid<3>& samples() const { return samples_; }
 
  private:

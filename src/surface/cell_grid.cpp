@@ -17,34 +17,32 @@ std::uint64_t spreadBits(std::uint64_t x) {
 }  // namespace
 
 CellGrid::CellGrid(float cellSizeWorld, std::size_t expectedPoints) : inverseCellSize_(1.0f / cellSizeWorld) {
-  slots_.resize(std::bit_ceil(std::max<std::size_t>(64, expectedPoints)));
-  shift_ = 64 - std::countr_zero(slots_.size());
+  // Points of a surface fill about half of a block's cells.
+  blocks_.resize(std::bit_ceil(std::max<std::size_t>(32, expectedPoints / 2)));
+  shift_ = 64 - std::countr_zero(blocks_.size());
   entries_.reserve(expectedPoints);
 }
 
 void CellGrid::insert(std::uint32_t index, const Vec3f& pWorld) {
-  const std::uint64_t key = keyOf(cellOf(pWorld));
-  std::size_t s = slotOf(key);
-  while (slots_[s].head != none && slots_[s].key != key) s = (s + 1) & (slots_.size() - 1);
-  if (slots_[s].head == none) {
-    slots_[s].key = key;
+  const Vec3i cell = cellOf(pWorld);
+  const std::uint64_t key = keyOf(blockOf(cell));
+  Block& block = blocks_[slotOf(key)];
+  if (block.key != key) {
+    block.key = key;
     ++used_;
   }
-  entries_.push_back({index, slots_[s].head});
-  slots_[s].head = static_cast<std::uint32_t>(entries_.size() - 1);
-  if (2 * used_ > slots_.size()) grow();
+  std::uint32_t& head = block.heads[placeOf(cell)];
+  entries_.push_back({index, head});
+  head = static_cast<std::uint32_t>(entries_.size() - 1);
+  if (2 * used_ > blocks_.size()) grow();
 }
 
 void CellGrid::grow() {
-  std::vector<Slot> old(slots_.size() * 2);
-  old.swap(slots_);
+  std::vector<Block> old(blocks_.size() * 2);
+  old.swap(blocks_);
   --shift_;
-  for (const Slot& slot : old) {
-    if (slot.head == none) continue;
-    std::size_t s = slotOf(slot.key);
-    while (slots_[s].head != none) s = (s + 1) & (slots_.size() - 1);
-    slots_[s] = slot;
-  }
+  for (const Block& block : old)
+    if (block.key != vacant) blocks_[slotOf(block.key)] = block;
 }
 
 std::uint64_t CellGrid::mortonKey(const Vec3f& pWorld, float cellSizeWorld) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,33 +18,42 @@ class CellGrid {
 
   void insert(std::uint32_t index, const Vec3f& pWorld);
 
-  /// Calls visit(index) for every point whose cell the ball's bounding box touches: a superset of the ball.
+  /// Calls visit(index) for every point of the ball, and for some near it.
   template <class Visit>
   void forEachNear(const Vec3f& pWorld, float radiusWorld, Visit&& visit) const {
-    const Vec3i lower = cellOf(pWorld - Vec3f::Constant(radiusWorld));
-    const Vec3i upper = cellOf(pWorld + Vec3f::Constant(radiusWorld));
-    for (int z = lower.z(); z <= upper.z(); ++z)
-      for (int y = lower.y(); y <= upper.y(); ++y)
-        for (int x = lower.x(); x <= upper.x(); ++x)
-          for (std::uint32_t i = head(keyOf({x, y, z})); i != none; i = entries_[i].next) visit(entries_[i].index);
+    anyNear(pWorld, radiusWorld, [&](std::uint32_t i) {
+      visit(i);
+      return false;
+    });
   }
 
   /// True if matches(index) holds for some point near the ball; the cell of its centre is asked first.
   template <class Matches>
   bool anyNear(const Vec3f& pWorld, float radiusWorld, Matches&& matches) const {
-    const auto inCell = [&](const Vec3i& cell) {
-      for (std::uint32_t i = head(keyOf(cell)); i != none; i = entries_[i].next)
+    const auto inCell = [&](std::uint32_t head) {
+      for (std::uint32_t i = head; i != none; i = entries_[i].next)
         if (matches(entries_[i].index)) return true;
       return false;
     };
     const Vec3i centre = cellOf(pWorld);
-    if (inCell(centre)) return true;
+    const Block* own = find(blockOf(centre));
+    if (own && inCell(own->heads[placeOf(centre)])) return true;
     const Vec3i lower = cellOf(pWorld - Vec3f::Constant(radiusWorld));
     const Vec3i upper = cellOf(pWorld + Vec3f::Constant(radiusWorld));
-    for (int z = lower.z(); z <= upper.z(); ++z)
-      for (int y = lower.y(); y <= upper.y(); ++y)
-        for (int x = lower.x(); x <= upper.x(); ++x)
-          if (const Vec3i cell(x, y, z); cell != centre && inCell(cell)) return true;
+    const Vec3i lowerBlock = blockOf(lower), upperBlock = blockOf(upper), ownBlock = blockOf(centre);
+    Vec3i b;
+    for (b.z() = lowerBlock.z(); b.z() <= upperBlock.z(); ++b.z())
+      for (b.y() = lowerBlock.y(); b.y() <= upperBlock.y(); ++b.y())
+        for (b.x() = lowerBlock.x(); b.x() <= upperBlock.x(); ++b.x()) {
+          const Block* block = b == ownBlock ? own : find(b);
+          if (!block) continue;
+          const Vec3i first = lower.cwiseMax(2 * b), last = upper.cwiseMin(2 * b + Vec3i::Ones());
+          Vec3i cell;
+          for (cell.z() = first.z(); cell.z() <= last.z(); ++cell.z())
+            for (cell.y() = first.y(); cell.y() <= last.y(); ++cell.y())
+              for (cell.x() = first.x(); cell.x() <= last.x(); ++cell.x())
+                if (cell != centre && inCell(block->heads[placeOf(cell)])) return true;
+        }
     return false;
   }
 
@@ -52,9 +62,11 @@ class CellGrid {
 
  private:
   static constexpr std::uint32_t none = 0xffffffffu;
-  struct Slot {
-    std::uint64_t key = ~0ull;
-    std::uint32_t head = none;
+  static constexpr std::uint64_t vacant = ~0ull;
+  /// 2 x 2 x 2 cells, which share a cache line: a ball as large as a cell touches at most 8 of them.
+  struct Block {
+    std::uint64_t key = vacant;
+    std::array<std::uint32_t, 8> heads = {none, none, none, none, none, none, none, none};
   };
   struct Entry {
     std::uint32_t index, next;
@@ -63,26 +75,32 @@ class CellGrid {
   Vec3i cellOf(const Vec3f& p) const {
     return (p * inverseCellSize_).array().floor().cast<int>().matrix();
   }
-  static std::uint64_t keyOf(const Vec3i& cell) {
+  static Vec3i blockOf(const Vec3i& cell) { return {cell.x() >> 1, cell.y() >> 1, cell.z() >> 1}; }
+  static std::size_t placeOf(const Vec3i& cell) {
+    return static_cast<std::size_t>((cell.x() & 1) | (cell.y() & 1) << 1 | (cell.z() & 1) << 2);
+  }
+  static std::uint64_t keyOf(const Vec3i& block) {
     constexpr std::uint64_t mask = (1u << 21) - 1;
-    return (static_cast<std::uint64_t>(cell.x()) & mask) | ((static_cast<std::uint64_t>(cell.y()) & mask) << 21) |
-           ((static_cast<std::uint64_t>(cell.z()) & mask) << 42);
+    return (static_cast<std::uint64_t>(block.x()) & mask) | ((static_cast<std::uint64_t>(block.y()) & mask) << 21) |
+           ((static_cast<std::uint64_t>(block.z()) & mask) << 42);
   }
+  /// Where a block is, or the free place it would take.
   std::size_t slotOf(std::uint64_t key) const {
-    return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ull) >> shift_);
+    std::size_t s = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ull) >> shift_);
+    while (blocks_[s].key != key && blocks_[s].key != vacant) s = (s + 1) & (blocks_.size() - 1);
+    return s;
   }
-  std::uint32_t head(std::uint64_t key) const {
-    for (std::size_t s = slotOf(key);; s = (s + 1) & (slots_.size() - 1)) {
-      if (slots_[s].key == key) return slots_[s].head;
-      if (slots_[s].head == none) return none;
-    }
+  const Block* find(const Vec3i& block) const {
+    const std::uint64_t key = keyOf(block);
+    const Block& found = blocks_[slotOf(key)];
+    return found.key == key ? &found : nullptr;
   }
   void grow();
 
   float inverseCellSize_;
   int shift_ = 0;
   std::size_t used_ = 0;
-  std::vector<Slot> slots_;
+  std::vector<Block> blocks_;
   std::vector<Entry> entries_;
 };
 

@@ -80,21 +80,24 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
 }
 
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
-                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed) {
-  CellGrid grid(gapWorld, positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), positions[i]);
-
+                        const std::vector<Vec3f>& normals, const CellGrid& grid, float gapWorld, float spacingWorld,
+                        std::uint64_t seed) {
   // Candidates are found concurrently in fixed blocks, then thinned in order.
-  const double dartsPerArea = 4.0 / (static_cast<double>(spacingWorld) * spacingWorld);
+  const double dartsPerArea = 2.0 / (static_cast<double>(spacingWorld) * spacingWorld);
   constexpr std::size_t block = 512;
   std::vector<std::vector<Dart>> candidates((mesh.triangles.size() + block - 1) / block);
   parallelBlocks(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       Random random(seed, 0, placeHash(mesh, t));
-      const int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
+      std::vector<Dart>& found = candidates[begin / block];
+      const std::size_t before = found.size();
+      int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
+      const int more = 2 * darts;
       for (int d = 0; d < darts; ++d) {
         const Dart dart = throwDart(mesh, t, random);
-        if (!crowded(grid, positions, normals, dart, gapWorld)) candidates[begin / block].push_back(dart);
+        if (crowded(grid, positions, normals, dart, gapWorld)) continue;
+        if (found.size() == before) darts += more;
+        found.push_back(dart);
       }
     }
   });
@@ -109,6 +112,13 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
       gaps.normals.push_back(dart.normal);
     }
   return gaps;
+}
+
+SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
+                        const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed) {
+  CellGrid grid(gapWorld, positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), positions[i]);
+  return findGaps(mesh, positions, normals, grid, gapWorld, spacingWorld, seed);
 }
 
 }  // namespace ebru

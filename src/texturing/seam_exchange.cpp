@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "core/parallel.h"
 #include "core/random.h"
@@ -142,18 +143,25 @@ void exchangeCharts(const OrientedPoints& points, const PointGraph& graph, const
   std::vector<std::uint32_t> members[groups];
   for (std::uint32_t i = 0; i < only.size(); ++i)
     if (only[i]) members[hashCombine(i, 0x5ea7u) % groups].push_back(i);
+  // A point that kept its chart keeps it until a neighbour's changes.
+  std::vector<std::uint8_t> settled(only.size());
+  std::vector<std::uint32_t> asked;
   std::vector<Chart> next;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const std::vector<std::uint32_t>& group : members) {
-      next.resize(group.size());
-      parallelFor(group.size(), 64, [&](std::size_t k) { next[k] = exchange.best(group[k]); });
-      parallelFor(group.size(), 1024, [&](std::size_t k) {
-        const std::uint32_t i = group[k];
-        if (next[k].st == texture.st[i]) return;
+      asked.clear();
+      std::copy_if(group.begin(), group.end(), std::back_inserter(asked), [&](std::uint32_t i) { return !settled[i]; });
+      next.resize(asked.size());
+      parallelFor(asked.size(), 64, [&](std::size_t k) { next[k] = exchange.best(asked[k]); });
+      for (std::size_t k = 0; k < asked.size(); ++k) {
+        const std::uint32_t i = asked[k];
+        settled[i] = 1;
+        if (next[k].st == texture.st[i]) continue;
         texture.st[i] = next[k].st;
         texture.jacobian[i] = next[k].jacobian;
         texture.colour[i] = exemplar.sample(0, next[k].st);
-      });
+        for (const std::uint32_t j : graph.of(i)) settled[j] = 0;
+      }
     }
 }
 

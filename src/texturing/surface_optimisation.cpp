@@ -169,12 +169,14 @@ float WindowSet::fit(std::size_t w) const {
 }
 
 void WindowSet::average(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const {
+  std::vector<float> fits(size());
+  parallelFor(size(), 1024, [&](std::size_t w) { fits[w] = fit(w); });
   parallelFor(texture.colour.size(), 256, [&](std::size_t i) {
     if (proposals(i).empty() || (!only.empty() && !only[i])) return;
     Texel sum = Texel::Zero();
     float weights = 0.0f;
     for (const Proposal& p : proposals(i)) {
-      const float g = falloff(p.displacement) * fit(p.window);
+      const float g = falloff(p.displacement) * fits[p.window];
       sum += g * exemplar_.sample(level_, match_[p.window].at(p.displacement));
       weights += g;
     }

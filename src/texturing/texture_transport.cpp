@@ -8,7 +8,6 @@
 #include "fluid/flow.h"
 #include "surface/cell_grid.h"
 #include "surface/orientation_field.h"
-#include "surface/point_index.h"
 #include "surface/poisson_sampling.h"
 
 namespace ebru {
@@ -21,9 +20,10 @@ constexpr float refillTexels = 0.75f;
 constexpr float chartReachTexels = 6.0f; ///< how far a chart is extended into new surface
 constexpr float stillSurfaceVoxels = 0.1f;
 
-/// Where the flow takes a particle and the ends of its axes.
+/// Where the flow takes a particle and the axes of its frame.
 struct CarriedFrame {
-  Vec3f place, ends[2];
+  Vec3f place;
+  Eigen::Matrix<float, 3, 2> axes;
   bool rests;
 };
 
@@ -31,13 +31,23 @@ CarriedFrame carryFrame(const Flow& flow, const FluidFrame& to, float texelWorld
                         std::size_t i) {
   const Vec3f& x = particles.position[i];
   const Vec3f& o = particles.orientation[i];
-  const float probe = probeTexels * texelWorld;
-  const Vec3f ends[2] = {x + probe * o, x + probe * secondAxis(particles.normal[i], o)};
-  CarriedFrame frame{flow.forward(x), {flow.forward(ends[0]), flow.forward(ends[1])}, false};
+  CarriedFrame frame{x, {}, false};
+  Eigen::Matrix<float, 3, 2> axes;
+  axes << o, secondAxis(particles.normal[i], o);
+  frame.axes = axes;
+  if (!flow.forwardWithAxes(frame.place, frame.axes)) {
+    // The frames know no gradients, or not everywhere: points a little way along the axes are carried, too.
+    const float probe = probeTexels * texelWorld;
+    frame.place = flow.forward(x);
+    for (int k = 0; k < 2; ++k) {
+      const Vec3f end = x + probe * axes.col(k), carried = flow.forward(end);
+      if (frame.place != x || carried != end) frame.axes.col(k) = (carried - frame.place) / probe;
+    }
+  }
   Eigen::Matrix<float, 1, 1> distance;
   // The axes, too: at the centre of an eddy the place rests and the frame turns.
-  frame.rests = frame.place == x && frame.ends[0] == ends[0] && frame.ends[1] == ends[1] &&
-                to.signedDistance.sample(x, distance) && std::abs(distance[0]) < stillSurfaceVoxels * to.voxelSizeWorld;
+  frame.rests = frame.place == x && frame.axes == axes && to.signedDistance.sample(x, distance) &&
+                std::abs(distance[0]) < stillSurfaceVoxels * to.voxelSizeWorld;
   return frame;
 }
 
@@ -62,13 +72,12 @@ bool carryOne(const Flow& flow, const FluidFrame& to, float texelWorld, TextureP
   }
   fate = ParticleFate::carried;
   const Vec3f& carried = frame.place;
-  const float probe = probeTexels * texelWorld;
   const float voxel = to.voxelSizeWorld;
   Vec3f landed, normal;
   if (!to.closestPoint(carried, landed, normal) || (landed - carried).norm() > maxDropVoxels * voxel) return false;
 
-  const Vec3f a = (frame.ends[0] - carried) / probe;
-  const Vec3f b = (frame.ends[1] - carried) / probe;
+  const Vec3f a = frame.axes.col(0);
+  const Vec3f b = frame.axes.col(1);
   if (b.cross(a).dot(normal) < 0.0f) return false;  // it would come down on the other side of a sheet
   Vec3f first = a - a.dot(normal) * normal;
   if (first.norm() < 1e-3f) first = transportTangent(o, n, normal);
@@ -96,40 +105,59 @@ void applyOrder(const std::vector<std::uint32_t>& order, TextureParticles& parti
 std::vector<std::uint32_t> uncrowded(const TextureParticles& particles, const std::vector<ParticleFate>& fates,
                                      float texelWorld) {
   const float radius = crowdedTexels * texelWorld;
-  CellGrid grid(texelWorld, particles.size());
+  const auto crowds = [&](std::uint32_t j, std::size_t i) {
+    return j != i && (particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
+           particles.normal[j].dot(particles.normal[i]) > 0.0f;
+  };
+  CellGrid all(texelWorld, particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) all.insert(static_cast<std::uint32_t>(i), particles.position[i]);
+  // Few have another near them at all; only among these it matters who comes first.
+  std::vector<std::uint8_t> contested(particles.size());
+  parallelFor(particles.size(), 1024, [&](std::size_t i) {
+    contested[i] = fates[i] != ParticleFate::still &&
+                   all.anyNear(particles.position[i], radius, [&](std::uint32_t j) { return crowds(j, i); });
+  });
+  std::vector<std::uint8_t> removed(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    removed[i] = contested[i] && all.anyNear(particles.position[i], radius, [&](std::uint32_t j) {
+      const bool first = fates[j] == ParticleFate::still || j < i;
+      return first && !removed[j] && crowds(j, i);
+    });
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < particles.size(); ++i)
-    if (fates[i] == ParticleFate::still) {
-      grid.insert(static_cast<std::uint32_t>(i), particles.position[i]);
-      kept.push_back(static_cast<std::uint32_t>(i));
-    }
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (fates[i] == ParticleFate::still) continue;
-    const bool crowded = grid.anyNear(particles.position[i], radius, [&](std::uint32_t j) {
-      return (particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
-             particles.normal[j].dot(particles.normal[i]) > 0.0f;
-    });
-    if (crowded) continue;
-    grid.insert(static_cast<std::uint32_t>(i), particles.position[i]);
-    kept.push_back(static_cast<std::uint32_t>(i));
-  }
-  std::sort(kept.begin(), kept.end());
+    if (!removed[i]) kept.push_back(static_cast<std::uint32_t>(i));
   return kept;
 }
 
+/// The particle of the grid nearest to a place, of those within `radiusWorld` that face about the same way; ties by index.
+bool nearestOf(const CellGrid& grid, const TextureParticles& particles, const Vec3f& p, const Vec3f& n, float radiusWorld,
+               std::uint32_t& nearest) {
+  float least = radiusWorld * radiusWorld;
+  bool found = false;
+  grid.forEachNear(p, radiusWorld, [&](std::uint32_t j) {
+    const float distance = (particles.position[j] - p).squaredNorm();
+    if (distance > least || particles.normal[j].dot(n) < 0.2f || (found && distance == least && j > nearest)) return;
+    least = distance;
+    nearest = j;
+    found = true;
+  });
+  return found;
+}
+
 /// Chart, colour and frame of a new particle from the nearest old one. @return inserted or orphan
-ParticleFate extendChart(const PointIndex& index, std::size_t oldCount, const Exemplar& exemplar, float texelWorld,
-                         TextureParticles& particles, std::size_t i) {
-  PointIndex::Neighbour nearest;
+ParticleFate extendChart(const CellGrid& grid, const Exemplar& exemplar, float texelWorld, TextureParticles& particles,
+                         std::size_t i) {
   const Vec3f& p = particles.position[i];
   const Vec3f& n = particles.normal[i];
-  if (oldCount == 0 || index.nearest(p, n, 0.2f, chartReachTexels * texelWorld, {&nearest, 1}) == 0) {
+  std::uint32_t j = 0;
+  // Most gaps are hardly wider than one.
+  if (!nearestOf(grid, particles, p, n, 2.0f * texelWorld, j) &&
+      !nearestOf(grid, particles, p, n, chartReachTexels * texelWorld, j)) {
     Vec3f unused;
     completeFrame(n, particles.orientation[i], unused);
     boxProjection(p, n, particles.orientation[i], texelWorld, particles.st[i], particles.jacobian[i]);
     return ParticleFate::orphan;
   }
-  const std::size_t j = nearest.index;
   particles.orientation[i] = transportTangent(particles.orientation[j], particles.normal[j], n).normalized();
   particles.jacobian[i] = particles.jacobian[j];
   const Vec2f step = localTexels(particles, j, p, texelWorld);
@@ -172,19 +200,19 @@ void keepSpacing(const FluidFrame& frame, const Exemplar& exemplar, float texelW
   const std::vector<std::uint32_t> kept = uncrowded(particles, fates, texelWorld);
   if (kept.size() != particles.size()) applyOrder(kept, particles, fates);
 
-  const SurfaceSamples gaps = findGaps(frame.mesh, particles.position, particles.normal, gapTexels * texelWorld,
+  CellGrid grid(gapTexels * texelWorld, particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), particles.position[i]);
+  const SurfaceSamples gaps = findGaps(frame.mesh, particles.position, particles.normal, grid, gapTexels * texelWorld,
                                        refillTexels * texelWorld, seed);
   if (gaps.size() > 0) {
     const std::size_t oldCount = particles.size();
-    const std::vector<Vec3f> oldPositions = particles.position, oldNormals = particles.normal;
-    const PointIndex index(oldPositions, oldNormals);
     particles.append(gaps.size());
     fates.resize(particles.size());
     parallelFor(gaps.size(), 256, [&](std::size_t k) {
       const std::size_t i = oldCount + k;
       particles.position[i] = gaps.positions[k];
       particles.normal[i] = gaps.normals[k];
-      fates[i] = extendChart(index, oldCount, exemplar, texelWorld, particles, i);
+      fates[i] = extendChart(grid, exemplar, texelWorld, particles, i);
     });
   }
 

@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "core/random.h"
 #include "fluid/fluid_sequence.h"
+#include "surface/poisson_sampling.h"
 #include "texturing/texture_transport.h"
 
 namespace ebru::bench {
@@ -39,15 +41,16 @@ double memory(const std::string& key) {
 
 }  // namespace
 
-const FluidFrame& from() {
-  static const std::shared_ptr<const FluidFrame> frame = load(12);
-  return *frame;
+const FluidFrame& frame(int number) {
+  static std::map<int, std::shared_ptr<const FluidFrame>> frames;
+  std::shared_ptr<const FluidFrame>& shared = frames[number];
+  if (!shared) shared = load(number);
+  return *shared;
 }
 
-const FluidFrame& to() {
-  static const std::shared_ptr<const FluidFrame> frame = load(13);
-  return *frame;
-}
+const FluidFrame& from() { return frame(12); }
+
+const FluidFrame& to() { return frame(13); }
 
 std::shared_ptr<const Exemplar> exemplar() {
   static const auto shared = std::make_shared<const Exemplar>(readExemplarMaps({.colour = {exemplarPath()}}));
@@ -59,6 +62,14 @@ std::unique_ptr<TextureMethod> method(const char* name) {
   options.method = name;
   options.exemplar = {exemplarPath()};
   options.texel_size = static_cast<double>(texelWorld);
+  return makeTextureMethod(options, 1, nullptr);
+}
+
+std::unique_ptr<TextureMethod> synthesis(const char* exemplarName, double particleCount) {
+  TextureOptions options;
+  options.method = "synthesis";
+  options.exemplar = {(scenes() / "exemplars" / exemplarName).string()};
+  options.texel_size = std::sqrt(0.7 * surfaceArea(from().mesh) / particleCount) / static_cast<double>(poissonSpacingTexels);
   return makeTextureMethod(options, 1, nullptr);
 }
 
@@ -112,7 +123,7 @@ double stateBytes(const TextureParticles& p) {
     return static_cast<double>(values.size() * sizeof(values[0]));
   };
   return (bytes(p.position) + bytes(p.normal) + bytes(p.orientation) + bytes(p.st) + bytes(p.jacobian) +
-          bytes(p.colour) + bytes(p.age) + bytes(p.id)) /
+          bytes(p.fadingSt) + bytes(p.fadingJacobian) + bytes(p.fade) + bytes(p.colour) + bytes(p.age) + bytes(p.id)) /
          std::max<double>(1.0, static_cast<double>(p.size()));
 }
 
@@ -133,9 +144,9 @@ void Meter::pause() {
   cpu_ += static_cast<double>(std::clock() - cpuStart_) / CLOCKS_PER_SEC;
 }
 
-void Meter::report(benchmark::State& state, double particleCount) const {
+void Meter::report(benchmark::State& state, double particleCount, int rounds) const {
   const double per100k =
-      1e5 / (particleCount * static_cast<double>(std::max<std::int64_t>(1, state.iterations())));
+      1e5 / (particleCount * rounds * static_cast<double>(std::max<std::int64_t>(1, state.iterations())));
   state.counters["s_per_100k"] = wall_ * per100k;
   state.counters["cpu_s_per_100k"] = cpu_ * per100k;
   state.counters["particles"] = particleCount;

@@ -22,9 +22,13 @@ inline constexpr float texelWorld = 0.006f;  ///< of scenes/dam_break.toml
 /// Frames 12 and 13: the wave is past the obstacle and breaks.
 const FluidFrame& from();
 const FluidFrame& to();
+/// Any frame of the cache; kept.
+const FluidFrame& frame(int number);
 std::shared_ptr<const Exemplar> exemplar();
 /// With the shot's exemplar and texel size.
 std::unique_ptr<TextureMethod> method(const char* name);
+/// Synthesis of a file of scenes/exemplars with about `particleCount` particles on frame 12.
+std::unique_ptr<TextureMethod> synthesis(const char* exemplarName, double particleCount);
 /// Particles of `particles` after its start on frame 12.
 const TextureParticles& particles();
 /// Field of a method after its start on frame 12.
@@ -43,8 +47,8 @@ class Meter {
   /// Adds what was spent since `resume`.
   void pause();
   void resume();
-  /// Writes the counters for `iterations` times `particleCount` particles.
-  void report(benchmark::State& state, double particleCount) const;
+  /// Writes the counters for `iterations` times `rounds` passes over `particleCount` particles.
+  void report(benchmark::State& state, double particleCount, int rounds = 1) const;
 
  private:
   std::chrono::steady_clock::time_point wallStart_;

@@ -1,6 +1,7 @@
 /// Carrying particles and making their texture, per 100,000 particles.
 
 #include "stage.h"
+#include "surface/poisson_sampling.h"
 #include "texturing/texture_transport.h"
 
 namespace ebru::bench {
@@ -74,6 +75,48 @@ void SynthesisAdvance(benchmark::State& state) {
   meter.report(state, count);
 }
 
+/// Transport and synthesis by number of particles, in thousands: the mean of three frames that have worn texture, after two that make
+/// some; a 256 x 256 exemplar.
+void SynthesisFrames(benchmark::State& state) {
+  constexpr int first = 12, begin = 14, end = 17;
+  const double count = 1e3 * static_cast<double>(state.range(0));
+  double area = 0.0;  // of the frames that are timed, in areas of the first
+  for (int f = first; f <= end; ++f)
+    if (const double a = surfaceArea(frame(f).mesh) / surfaceArea(frame(first).mesh); f > begin) area += a / (end - begin);
+  for (auto _ : state) {
+    Meter meter;
+    const std::unique_ptr<TextureMethod> m = synthesis("leaf_litter.png", count);
+    meter.pause();
+    m->start(frame(first));
+    for (int f = first; f < end; ++f) {
+      if (f == begin) meter.resume();
+      m->advance(frame(f), frame(f + 1));
+    }
+    meter.pause();
+    meter.report(state, area * count, end - begin);
+  }
+}
+
+/// The first frame, by the same numbers.
+void SynthesisFirstFrame(benchmark::State& state) {
+  const double count = 1e3 * static_cast<double>(state.range(0));
+  frame(12);
+  for (auto _ : state) {
+    const std::unique_ptr<TextureMethod> m = synthesis("leaf_litter.png", count);
+    Meter meter;
+    m->start(frame(12));
+    meter.pause();
+    meter.report(state, count);
+  }
+}
+
+void particleCounts(benchmark::internal::Benchmark* b) {
+  for (const int thousands : {50, 125, 250, 500, 1000, 2000, 4000}) b->Arg(thousands);
+  b->Iterations(1)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+}
+
+BENCHMARK(SynthesisFrames)->Apply(particleCounts);
+BENCHMARK(SynthesisFirstFrame)->Apply(particleCounts);
 BENCHMARK(CarryParticles)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(KeepSpacing)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(SynthesisPrepareExemplar)
