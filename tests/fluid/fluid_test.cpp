@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -12,6 +13,7 @@
 #include "fluid/fluid_sequence.h"
 #include "fluid/procedural_sequence.h"
 #include "fluid/velocity_check.h"
+#include "fluid/velocity_grid.h"
 
 namespace ebru {
 namespace {
@@ -113,6 +115,74 @@ TEST(Flow, RotationIsThirdOrderAccurate) {
     ASSERT_LT((flow.forward(p).cast<double>() - exact).norm(), 1.4e-5);
     ASSERT_LT((flow.backward(flow.forward(p)) - p).norm(), 3e-5f);
   }
+}
+
+/// A velocity on a grid, known in (-0.8, 0.8)^3 where `known` holds.
+std::shared_ptr<const FluidFrame> gridFrame(const std::function<Vec3f(const Vec3f&)>& velocity,
+                                            const std::function<bool(const Vec3f&)>& known) {
+  SampledGrid<3> samples(Vec3f::Zero(), 0.1f, Vec3i(-1, -1, -1), Vec3i(0, 0, 0));
+  for (int b = 0; b < 8; ++b) {
+    const Vec3i block((b & 1) - 1, (b >> 1 & 1) - 1, (b >> 2) - 1);
+    float* data = samples.addBlock(block);
+    for (int k = 0; k < SampledGrid<3>::samplesPerBlock; ++k) {
+      const Vec3f p = samples.worldFromIndex(8 * block + Vec3i(k % 9, k / 9 % 9, k / 81));
+      Eigen::Map<Vec3f>(data + 3 * k) = known(p) ? velocity(p) : Vec3f::Constant(std::nanf(""));
+    }
+  }
+  auto frame = std::make_shared<FluidFrame>();
+  frame->voxelSizeWorld = 0.1f;
+  frame->velocity = std::make_shared<VelocityGrid>(std::move(samples));
+  return frame;
+}
+
+// The deformation gradient along a path is what points a little apart do.
+TEST(Flow, AxesAreCarriedLikePointsALittleApart) {
+  const auto swirl = [](const Vec3f& p) {
+    return Vec3f(-3.0f * p.y() + std::sin(4.0f * p.z()), 2.5f * p.x() * p.x(), 1.0f + std::cos(3.0f * p.x()));
+  };
+  const auto everywhere = [](const Vec3f&) { return true; };
+  const auto from = gridFrame(swirl, everywhere);
+  const auto to = gridFrame([&](const Vec3f& p) -> Vec3f { return 1.4f * swirl(p); }, everywhere);
+  const Flow flow(from.get(), to.get());
+  Random random(4, 5, 6);
+  int inOneCell = 0;
+  for (int n = 0; n < 200; ++n) {
+    const Vec3f p = 0.8f * randomPoint(random);
+    Eigen::Matrix<float, 3, 2> axes;
+    axes << randomPoint(random), randomPoint(random);
+    Vec3f carried = p;
+    Eigen::Matrix<float, 3, 2> turned = axes;
+    ASSERT_TRUE(flow.forwardWithAxes(carried, turned));
+    EXPECT_LT((carried - flow.forward(p)).norm(), 1e-6f);
+    constexpr float apart = 2e-3f;
+    for (int k = 0; k < 2; ++k) {
+      const Vec3f there = (flow.forward(p + apart * axes.col(k)) - flow.forward(p - apart * axes.col(k))) / (2.0f * apart);
+      // The gradient jumps between cells: a path that passes close by a border may differ a little more.
+      inOneCell += (there - turned.col(k)).norm() < 2e-3f * axes.col(k).norm();
+      EXPECT_LT((there - turned.col(k)).norm(), 0.06f * axes.col(k).norm());
+    }
+  }
+  EXPECT_GT(inOneCell, 280);
+}
+
+TEST(Flow, AxesAtRestComeBackBitForBitAndUnknownGradientsAreSaid) {
+  const auto rest = gridFrame([](const Vec3f&) { return Vec3f(Vec3f::Zero()); }, [](const Vec3f& p) { return p.x() < 0.3f; });
+  const Flow flow(rest.get(), rest.get());
+  Eigen::Matrix<float, 3, 2> axes, kept;
+  axes << 0.3f, -0.0f, 0.7f, 0.1f, -0.2f, 0.9f;
+  kept = axes;
+  Vec3f p(-0.0f, 0.123f, -0.31f);
+  ASSERT_TRUE(flow.forwardWithAxes(p, axes));
+  EXPECT_EQ(p, Vec3f(-0.0f, 0.123f, -0.31f));
+  EXPECT_EQ(std::memcmp(axes.data(), kept.data(), sizeof(axes)), 0);
+  for (const Vec3f& outside : {Vec3f(0.5f, 0.0f, 0.0f), Vec3f(3.0f, 0.0f, 0.0f)}) {
+    Vec3f q = outside;
+    EXPECT_FALSE(flow.forwardWithAxes(q, axes));
+    EXPECT_EQ(q, outside);
+    EXPECT_EQ(axes, kept);
+  }
+  const auto analytic = sequenceOf("shear").load(1);
+  EXPECT_FALSE(Flow(analytic.get(), analytic.get()).forwardWithAxes(p, axes)) << "offers no gradient";
 }
 
 TEST(Flow, UnknownVelocityKeepsThePointAndOneFrameAloneHolds) {

@@ -71,7 +71,7 @@ TEST_P(StillFluid, KeepsItsTextureWhileAnotherPartMoves) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, StillFluid, ::testing::ValuesIn(test::methodNames()),
+INSTANTIATE_TEST_SUITE_P(Methods, StillFluid, ::testing::ValuesIn(test::methodVariants()),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

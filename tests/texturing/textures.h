@@ -128,12 +128,26 @@ inline float texelFor(const zoo::Fluid& fluid, double wantedParticles = 1200.0) 
   return area > 0.0 ? static_cast<float>(spacing / 0.82) : 0.05f;
 }
 
+/// Every method, and those that an option makes another one of.
+inline std::vector<std::string> methodVariants() {
+  std::vector<std::string> names;
+  for (const TextureMethodInfo& method : textureMethods()) names.push_back(method.name);
+  names.push_back("synthesis_through_grid");
+  return names;
+}
+
+inline void choose(const std::string& variant, TextureOptions& options) {
+  const std::size_t end = variant.find("_through_grid");
+  options.method = variant.substr(0, end);
+  if (end != std::string::npos) options.transport = "grid";
+}
+
 /// Tests of one method after another, on fluids of the zoo.
 class EachMethod : public ::testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<TextureMethod> started(const zoo::Fluid& fluid, double wantedParticles = 1200.0) {
     TextureOptions options;
-    options.method = GetParam();
+    choose(GetParam(), options);
     options.texel_size = texelFor(fluid, wantedParticles);
     options.exemplar = {writeExemplar(folder_ / "discs.png", 48, discs).string()};
     std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 7, nullptr);
@@ -146,12 +160,6 @@ class EachMethod : public ::testing::TestWithParam<std::string> {
 inline bool identical(const TextureSample& a, const TextureSample& b) {
   return a.valid == b.valid && a.colour == b.colour && a.st == b.st && a.id == b.id && a.age == b.age &&
          a.distortion == b.distortion && a.displacement == b.displacement && a.alpha == b.alpha;
-}
-
-inline std::vector<std::string> methodNames() {
-  std::vector<std::string> names;
-  for (const TextureMethodInfo& method : textureMethods()) names.push_back(method.name);
-  return names;
 }
 
 inline constexpr float slabVoxelWorld = 0.04f;
