@@ -6,6 +6,7 @@ namespace ebru {
 namespace {
 
 constexpr float step = 1.0f / 3.0f;
+constexpr float drawnOut = 2.2f;     ///< texture stretched more is not worth a fade
 constexpr float sameTexels = 0.35f;  ///< charts nearer than this show the same place
 
 }  // namespace
@@ -22,7 +23,7 @@ void startFades(const ChartSnapshot& before, const std::vector<std::uint8_t>& re
   parallelFor(region.size(), 2048, [&](std::size_t i) {
     if (!region[i] || (before.st[i] - particles.st[i]).squaredNorm() < sameTexels * sameTexels) return;
     particles.age[i] = 0.0f;
-    if (fates[i] == ParticleFate::orphan) return;
+    if (fates[i] == ParticleFate::orphan || distortion(before.jacobian[i]) > drawnOut) return;
     particles.fadingSt[i] = before.st[i];
     particles.fadingJacobian[i] = before.jacobian[i];
     particles.fade[i] = 1.0f - step;

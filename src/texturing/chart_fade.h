@@ -18,8 +18,8 @@ struct ChartSnapshot {
   std::vector<Mat2f> jacobian;
 };
 
-/// Begins a fade where a chart of `region` shows another place than `before`; such texture's age is 0. New surface fades from
-/// nothing: it begins with its chart.
+/// Begins a fade where a chart of `region` shows another place than `before`; such texture's age is 0. New surface begins with
+/// its chart, and what was stretched by more than 2.2 is not shown any longer.
 void startFades(const ChartSnapshot& before, const std::vector<std::uint8_t>& region, const std::vector<ParticleFate>& fates,
                 TextureParticles& particles);
 

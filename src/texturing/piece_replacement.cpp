@@ -19,9 +19,15 @@ constexpr std::size_t neighbourCharts = 24; ///< points around the piece whose c
 constexpr std::size_t refined = 3;
 constexpr int refinementSteps = 3;
 constexpr float largestRadius = 0.4f;  ///< of a piece, against the exemplar's smaller side
-/// What costs more: a window from elsewhere against a chart that is there already, and a place of the exemplar that is shown more than others, per
-/// mean that it is over the mean.
-constexpr float foreign = 1.1f, overuse = 0.3f;
+/// Costs in squared contrasts: of a window from elsewhere against a chart that is there already, and of a place of the exemplar
+/// that is shown more than others, per mean that it is over the mean.
+constexpr float foreign = 0.1f, overuse = 0.3f;
+/// What is more worn says less about what should be there: full weight up to the first, least weight from the second on.
+constexpr float trusted = 1.25f, distrusted = 2.2f, leastWeight = 0.05f;
+
+float trust(float wear) {
+  return std::clamp((distrusted - wear) / (distrusted - trusted), leastWeight, 1.0f);
+}
 
 struct Candidate {
   Placement placement;
@@ -35,8 +41,9 @@ class PieceChoice {
       : exemplar_(exemplar), search_(search), usage_(usage), scale_(static_cast<float>(1 << search.level())), radius_(radius) {}
 
   /// @param members  of the piece and its surroundings, the centre first, in axes in which its own chart is not turned
-  Placement choose(std::span<const NeighbourhoodPoint> members, const SurfaceTexture& texture) {
-    gather(members, texture);
+  Placement choose(std::span<const NeighbourhoodPoint> members, std::span<const std::uint8_t> remaining,
+                   std::span<const float> wear, const SurfaceTexture& texture) {
+    gather(members, remaining, wear, texture);
     candidates_.clear();
     const auto add = [&](Placement placement, float penalty) {
       placement.uv = inside(placement.uv);
@@ -45,16 +52,16 @@ class PieceChoice {
                (c.placement.rotation - placement.rotation).squaredNorm() < 1e-3f;
       };
       if (std::any_of(candidates_.begin(), candidates_.end(), same)) return;
-      penalty *= 1.0f + overuse * usage_.excess(placement.uv);
-      candidates_.push_back({placement, penalty, penalty * meanSquaredError(exemplar_, 0, samples_, placement)});
+      penalty = variance() * (penalty + overuse * usage_.excess(placement.uv));
+      candidates_.push_back({placement, penalty, penalty + error(placement)});
     };
     const std::size_t centre = members[0].index;
-    add({texture.st[centre]}, 1.0f);
+    add({texture.st[centre]}, 0.0f);
     const std::size_t stride = std::max<std::size_t>(1, members.size() / neighbourCharts);
     for (std::size_t k = stride; k < members.size(); k += stride) {
       const NeighbourhoodPoint& m = members[k];
       const Mat2f rotation = nearestRotation(texture.jacobian[m.index] * m.axes().transpose());
-      add({texture.st[m.index] - rotation * m.displacement, rotation}, 1.0f);
+      add({texture.st[m.index] - rotation * m.displacement, rotation}, 0.0f);
     }
     const NeighbourhoodSearch::Descriptor query =
         search_.describe(windowRaster(members, texture.colour, scale_ * search_.pixelSpacing()));
@@ -66,13 +73,24 @@ class PieceChoice {
   }
 
  private:
-  void gather(std::span<const NeighbourhoodPoint> members, const SurfaceTexture& texture) {
+  float variance() const { return exemplar_.contrast() * exemplar_.contrast(); }
+  /// Weighted squared differences per sample: where all texture is worn out, it hardly counts against the penalties.
+  float error(const Placement& placement) const {
+    return meanWeight_ * meanSquaredError(exemplar_, 0, samples_, placement);
+  }
+
+  void gather(std::span<const NeighbourhoodPoint> members, std::span<const std::uint8_t> remaining,
+              std::span<const float> wear, const SurfaceTexture& texture) {
     samples_.clear();
+    meanWeight_ = 0.0f;
     const std::size_t stride = std::max<std::size_t>(1, members.size() / sampledMembers);
     for (std::size_t k = 0; k < members.size(); k += stride) {
       const NeighbourhoodPoint& m = members[k];
-      samples_.push_back({m.displacement, texture.colour[m.index], 1.0f});
+      const float weight = remaining[m.index] ? trust(wear[m.index]) : 1.0f;
+      samples_.push_back({m.displacement, texture.colour[m.index], weight});
+      meanWeight_ += weight;
     }
+    meanWeight_ /= static_cast<float>(samples_.size());
   }
 
   Placement best() {
@@ -83,7 +101,7 @@ class PieceChoice {
       for (int step = 0; step < refinementSteps; ++step) {
         Placement next = gaussNewtonStep(exemplar_, 0, samples_, c.placement);
         next.uv = inside(next.uv);
-        const float cost = c.penalty * meanSquaredError(exemplar_, 0, samples_, next);
+        const float cost = c.penalty + error(next);
         if (!(cost < c.cost)) break;
         c = {next, c.penalty, cost};
       }
@@ -98,6 +116,7 @@ class PieceChoice {
   float scale_;
   float radius_;
   std::vector<FitSample> samples_;
+  float meanWeight_ = 1.0f;
   std::vector<Candidate> candidates_;
   std::vector<NeighbourhoodSearch::Match> found_;
 };
@@ -151,7 +170,7 @@ void replacePieces(const OrientedPoints& points, const PointGraph& graph, const 
         builder.build(points, graph, centres[k], nearestRotation(texture.jacobian[centres[k]]), 2.0f * reach, texelWorld,
                       members);
         std::erase_if(members, [&](const NeighbourhoodPoint& m) { return m.displacement.squaredNorm() > reach * reach; });
-        pieces[k].placement = choice.choose(members, texture);
+        pieces[k].placement = choice.choose(members, remaining, wear, texture);
       }
     });
     // Discs are disjoint: nobody writes what another does.

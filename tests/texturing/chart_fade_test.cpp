@@ -24,8 +24,11 @@ TEST(ChartFade, OnlyChartsThatShowAnotherPlaceFade) {
   top.region[5] = 0;
   top.particles.st[6] += Vec2f(5.0f, 0.0f);
   top.fates[6] = ParticleFate::orphan;
+  top.before.jacobian[7] *= 0.4f;
+  top.particles.st[7] += Vec2f(5.0f, 0.0f);
   startFades(top.before, top.region, top.fates, top.particles);
   const std::vector<float>& fade = top.particles.fade;
+  EXPECT_EQ(fade[7], 0.0f) << "drawn out";
   EXPECT_EQ(fade[3], 0.0f);
   EXPECT_GT(fade[4], 0.5f);
   EXPECT_EQ(fade[5], 0.0f);
