@@ -22,11 +22,11 @@ Vec3f tinted(int x, int y, std::uint64_t kind) {
 }
 
 /// Two exemplars whose other maps are functions of the colour of the same place.
-TextureOptions nineChannels(const test::Folder& folder) {
+TextureOptions nineChannels(const test::Folder& folder, int texels = side) {
   TextureOptions options;
   options.method = "synthesis";
   options.texel_size = texelWorld;
-  const Vec2i size(side, side);
+  const Vec2i size(texels, texels);
   for (const std::uint64_t kind : {0, 1}) {
     const auto colour = [=](int x, int y) { return tinted(x, y, kind); };
     const auto write = [&](const char* name, const test::Vec3Function& f) {
@@ -79,7 +79,8 @@ TEST(ExemplarChannels, AHitShowsAllMapsOfOnePlace) {
 // Each hit has the colours of the exemplar it says, at the coordinate it says, and both exemplars are there.
 TEST(ExemplarChannels, SynthesisUsesBothExemplars) {
   const test::Folder folder;
-  TextureOptions options = nineChannels(folder);
+  TextureOptions options = nineChannels(folder, 128);  // the first pieces, half as large, hold the widest windows
+  options.texel_size = 0.012;
   options.height = options.roughness = options.alpha = options.emission = {};
   const std::unique_ptr<TextureMethod> method = makeTextureMethod(options, 1, nullptr);
   auto from = shearedSlab(1);
