@@ -94,7 +94,7 @@ def main():
     if not methods or len(set(methods)) < len(methods):
         raise UsageError(f"--methods: got \"{arguments.methods}\", expected different names with commas")
     shot_file = command.find_shot(arguments.shot)
-    tables = shot.read(shot_file)
+    tables = shot.read(shot_file, arguments.set)
     out = (arguments.out or command.ROOT / "out" / f"{tables['shot']['name']}_comparison").absolute()
     settings = command.settings_of(arguments, tables)
     render_all(arguments.ebru or built_ebru(), shot_file, methods, out, arguments)

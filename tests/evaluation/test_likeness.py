@@ -179,5 +179,15 @@ def test_shot_gives_exemplar_texel_size_and_rate(folder):
     assert settings.fps == 30, settings.fps
 
 
+def test_settings_win_over_the_shot_file(folder):
+    path = pathlib.Path(folder) / "a.toml"
+    path.write_text('[texture]\nexemplar = "a.png"\ntexel_size = 0.1\n[fluid]\nscene = "shear"\n')
+    tables = shot.read(path, ["texture.exemplar=other.png", "texture.texel_size = 0.02", "fluid.speed=2.5", "light.0.intensity=2"])
+    assert tables["texture"] == {"exemplar": str(path.parent.resolve() / "other.png"), "texel_size": 0.02}, tables
+    assert tables["fluid"] == {"scene": "shear", "speed": 2.5}, tables
+    assert shot.read(path, ['texture.exemplar=["b.png", "c.png"]'])["texture"]["exemplar"].endswith("b.png")
+    assert shot.read(path)["texture"]["exemplar"].endswith("a.png")
+
+
 if __name__ == "__main__":
     main()
