@@ -24,15 +24,14 @@ struct ExemplarSample {
 using OtherMaps = std::array<Texel, 2>;
 inline const OtherMaps noOtherMaps = {Texel::Zero(), Texel::Zero()};
 
-/// Example images with their pyramids: texels, which synthesis compares, averages and transports, and the maps, which the
-/// picture shows. In the plain case of AppearanceSpace, colour with or without height, they are the same data.
+/// Example images with their pyramids: texels, which synthesis compares, averages and transports, and the maps, which
+/// the picture shows. In the plain case of AppearanceSpace, colour with or without height, they are the same data.
 ///
 /// Exemplar coordinates are in texels of level 0: u to the right, v down the image, the centre of the first texel at
 /// (0.5, 0.5). Several images, the tiles, lie in one coordinate space side by side along u, the first at 0, at least
 /// `gap` texels apart, so that a chart (coordinate and Jacobian) says which it means. A coordinate belongs to the tile
-/// nearest in u, and everything is clamped to that tile's own border on every level: nothing bleeds from one to another.
-/// Every level has the tiles at exactly its scale.
-/// Const members are safe to call concurrently.
+/// nearest in u, and everything is clamped to that tile's own border on every level: nothing bleeds from one to
+/// another. Every level has the tiles at exactly its scale. Const members are safe to call concurrently.
 class Exemplar {
  public:
   /// @param images  at least one, with the same maps each
@@ -63,8 +62,8 @@ class Exemplar {
     const Vec2f p = uv - tileOrigin(tile).cast<float>();
     return p.minCoeff() >= 0.0f && (p.array() <= tileSize(tile).cast<float>().array()).all();
   }
-  /// Moves a coordinate of level 0 so that it is at least `margin` texels inside the image of its tile, or in its middle
-  /// where that is smaller.
+  /// Moves a coordinate of level 0 so that it is at least `margin` texels inside the image of its tile, or in its
+  /// middle where that is smaller.
   Vec2f clampInside(const Vec2f& uv, float margin) const {
     const int tile = tileAt(uv);
     const Vec2f origin = tileOrigin(tile).cast<float>(), size = tileSize(tile).cast<float>();

@@ -22,8 +22,9 @@ class Flow {
   /// comes back bit for bit, so does one whose velocity is unknown. Where it becomes unknown on the way, the
   /// last known one is kept.
   Vec3f forward(const Vec3f& pWorld) const;
-  /// `forward`, and where it takes two small displacements: the deformation gradient, integrated along the same sub-steps, times
-  /// `axes` (columns, world). They come back bit for bit where neither velocity nor gradient is other than zero.
+  /// `forward`, and where it takes two small displacements: the deformation gradient, integrated along the same
+  /// sub-steps, times `axes` (columns, world). They come back bit for bit where neither velocity nor gradient is other
+  /// than zero.
   /// @return false, both arguments as they were, where a frame does not know the gradient of its velocity
   bool forwardWithAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes) const;
   /// The same as `forward` from time 1 back to 0.

@@ -31,9 +31,9 @@ class Integrator {
   virtual RaySample trace(const CameraRay& ray, PixelSampler& sampler) const = 0;
 };
 
-/// Light that the first hit gives off, and light that reaches it straight from the suns and environments, with shadows: one shadow ray per
-/// sun, one in a direction of the surface's choice for all environments together, and one per image
-/// environment in a direction of its choice; the latter two are combined by the balance heuristic [Veach and
+/// Light that the first hit gives off, and light that reaches it straight from the suns and environments, with
+/// shadows: one shadow ray per sun, one in a direction of the surface's choice for all environments together, and one
+/// per image environment in a direction of its choice; the latter two are combined by the balance heuristic [Veach and
 /// Guibas 1995].
 std::unique_ptr<Integrator> makeDirectLightIntegrator(const IntegratorInput& input);
 

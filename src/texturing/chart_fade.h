@@ -7,7 +7,8 @@
 
 namespace ebru {
 
-/// Replaced charts fade over three frames, linearly, and ride on the flow meanwhile: a sudden change is seen, a fade hardly.
+/// Replaced charts fade over three frames, linearly, and ride on the flow meanwhile: a sudden change is seen, a fade
+/// hardly.
 
 /// One frame's step of all fades. Those of particles at rest go on, too.
 void advanceFades(TextureParticles& particles);
@@ -18,8 +19,8 @@ struct ChartSnapshot {
   std::vector<Mat2f> jacobian;
 };
 
-/// Begins a fade where a chart of `region` shows another place than `before`; such texture's age is 0. New surface begins with
-/// its chart, and what was stretched by more than 2.2 is not shown any longer.
+/// Begins a fade where a chart of `region` shows another place than `before`; such texture's age is 0. New surface
+/// begins with its chart, and what was stretched by more than 2.2 is not shown any longer.
 void startFades(const ChartSnapshot& before, const std::vector<std::uint8_t>& region, const std::vector<ParticleFate>& fates,
                 TextureParticles& particles);
 

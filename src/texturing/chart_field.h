@@ -9,11 +9,11 @@ namespace ebru {
 
 /// Colour at a surface point from the charts of the nearest particles.
 ///
-/// Each particle within 1.6 texels predicts the exemplar's maps at st + J (p - x), colour and height with what its texel
-/// differs from the exemplar at st; predictions are blended with weight (1 - d^2/r^2)^3. Where neighbours carry one chart all predictions
-/// agree and the picture has the exemplar's own resolution, filtered where a pixel is wider than a texel; where charts
-/// meet, the blend hides the particles' cells.
-/// Coordinate, id, age and distortion are the nearest particle's.
+/// Each particle within 1.6 texels predicts the exemplar's maps at st + J (p - x), colour and height with what its
+/// texel differs from the exemplar at st; predictions are blended with weight (1 - d^2/r^2)^3. Where neighbours carry
+/// one chart all predictions agree and the picture has the exemplar's own resolution, filtered where a pixel is wider
+/// than a texel; where charts meet, the blend hides the particles' cells. Coordinate, id, age and distortion are the
+/// nearest particle's.
 class ChartField : public TextureField {
  public:
   ChartField(std::shared_ptr<const TextureParticles> particles, std::shared_ptr<const Exemplar> exemplar,

@@ -11,21 +11,25 @@
 
 namespace ebru {
 
-/// Replacing worn texture by whole, rigidly laid pieces of the exemplar, as in image quilting [Efros and Freeman 2001] on
-/// a surface: each piece is chosen to match the texture around it, pieces laid before included.
+/// Replacing worn texture by whole, rigidly laid pieces of the exemplar, as in image quilting [Efros and Freeman 2001]
+/// on a surface: each piece is chosen to match the texture around it, pieces laid before included.
 
 struct PieceShape {
-  float radius = 24.0f;       ///< texels; larger than a feature of the exemplar; at most 0.4 of the exemplar's smaller side is used
+  /// Texels; larger than a feature of the exemplar. At most 0.4 of the exemplar's smaller side is used.
+  float radius = 24.0f;
   float surroundings = 4.0f;  ///< texels beyond the radius that the choice looks at
 };
 
-/// Lays pieces until `region` is covered: every point of it gets a new colour, coordinate and Jacobian. In each round pieces with disjoint
-/// discs are chosen and laid at once; their centres are the most worn points left, so that the result does not depend on threads.
+/// Lays pieces until `region` is covered: every point of it gets a new colour, coordinate and Jacobian. In each round
+/// pieces with disjoint discs are chosen and laid at once; their centres are the most worn points left, so that the
+/// result does not depend on threads.
 ///
-/// Candidates for a piece: the centre's own chart, the charts of points around it, all laid rigidly, and the exemplar windows most
-/// similar to what lies there now. Their cost is the mean squared colour difference to the disc and its surroundings; a tenth more for what is not a
-/// chart there already, so that pieces go on, and more where the exemplar is shown more than elsewhere (ExemplarUsage). The best
-/// three are refined to fractions of a texel and a small angle.
+/// Candidates for a piece: the centre's own chart, the charts of points around it, all laid rigidly, and the exemplar
+/// windows most similar to what lies there now. Their cost is the mean squared colour difference to the disc and its
+/// surroundings, in which a point that is to be replaced counts the less the more it is worn; plus a tenth of the
+/// exemplar's variance for what is not a chart there already, so that pieces go on; plus three tenths of it for every
+/// mean that a place of the exemplar is shown above the mean (ExemplarUsage). The best three are refined to fractions
+/// of a texel and a small angle.
 ///
 /// @param search  the windows that are asked
 /// @param region  1: to be replaced

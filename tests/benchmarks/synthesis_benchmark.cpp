@@ -75,8 +75,8 @@ void SynthesisAdvance(benchmark::State& state) {
   meter.report(state, count);
 }
 
-/// Transport and synthesis by number of particles, in thousands: the mean of three frames that have worn texture, after two that make
-/// some; a 256 x 256 exemplar.
+/// Transport and synthesis by number of particles, in thousands: the mean of three frames that have worn texture,
+/// after two that make some; a 256 x 256 exemplar.
 void SynthesisFrames(benchmark::State& state) {
   constexpr int first = 12, begin = 14, end = 17;
   const double count = 1e3 * static_cast<double>(state.range(0));
