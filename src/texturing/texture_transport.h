@@ -26,7 +26,8 @@ bool rests(const FluidFrame& from, const FluidFrame& to, float texelWorld, const
 
 /// Moves particles with Flow::forward (RK3), projects them to the surface of `to`, and drops those that left it.
 /// The frame follows eq. 4 of Kwatra: the orientation is carried as a vector, head and tail. The Jacobian is multiplied
-/// with the inverse of the step's tangential deformation gradient, measured by carrying both axes of the frame.
+/// with the inverse of the step's tangential deformation gradient, integrated along its path; where the fluid knows no
+/// gradient, measured by carrying points a little way along both axes.
 /// Deterministic. @return per remaining particle, still or carried
 std::vector<ParticleFate> carryParticles(const FluidFrame& from, const FluidFrame& to, float texelWorld,
                                          TextureParticles& particles);
