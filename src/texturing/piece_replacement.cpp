@@ -150,6 +150,7 @@ void replacePieces(const OrientedPoints& points, const PointGraph& graph, const 
                    std::span<const std::uint8_t> region, std::span<const float> wear, const SurfaceTexture& texture) {
   const float radius = std::min(shape.radius, largestRadius * static_cast<float>(exemplar.smallestSize().minCoeff()));
   const float reach = radius + shape.surroundings;
+  const float apart = 2.0f * radius * texelWorld;
   const ExemplarUsage usage(exemplar, texture.st);
   std::vector<std::uint8_t> remaining(region.begin(), region.end());
   std::vector<std::uint32_t> order;
@@ -159,7 +160,7 @@ void replacePieces(const OrientedPoints& points, const PointGraph& graph, const 
     return wear[a] != wear[b] ? wear[a] > wear[b] : a < b;
   });
   while (!order.empty()) {
-    const std::vector<std::uint32_t> centres = centresApart(points, order, 2.0f * radius * texelWorld);
+    const std::vector<std::uint32_t> centres = centresApart(points, order, apart);
     std::vector<Piece> pieces(centres.size());
     constexpr std::size_t block = 4;  // a builder's scratch is as long as the points
     parallelBlocks(centres.size(), block, [&](std::size_t begin, std::size_t end) {
@@ -173,11 +174,14 @@ void replacePieces(const OrientedPoints& points, const PointGraph& graph, const 
         pieces[k].placement = choice.choose(members, remaining, wear, texture);
       }
     });
-    // Discs are disjoint: nobody writes what another does.
+    // Discs are disjoint in space, too, where bends bring points nearer in the flattened piece than they are: nobody
+    // writes what another does.
     parallelFor(pieces.size(), block, [&](std::size_t k) {
       const Placement& placement = pieces[k].placement;
+      const Vec3f& centre = points.positions[centres[k]];
       for (const NeighbourhoodPoint& m : pieces[k].members) {
         if (!remaining[m.index] || m.displacement.squaredNorm() > radius * radius) continue;
+        if ((points.positions[m.index] - centre).squaredNorm() >= 0.25f * apart * apart) continue;
         texture.st[m.index] = placement.at(m.displacement);
         texture.jacobian[m.index] = placement.rotation * m.axes();
         texture.colour[m.index] = exemplar.sample(0, texture.st[m.index]);

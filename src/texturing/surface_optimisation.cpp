@@ -24,17 +24,16 @@ float squaredColourDistance(const Texel& a, const Texel& b) { return (a - b).squ
 }  // namespace
 
 WindowSet::WindowSet(const OrientedPoints& points, const PointGraph& graph, const NeighbourhoodSearch& search,
-                     const Exemplar& exemplar, int level, float texelWorld, float centreSpacing,
+                     const Exemplar& exemplar, float texelWorld, float centreSpacing,
                      std::span<const std::uint8_t> active, std::span<const Mat2f> jacobian)
     : search_(search),
       exemplar_(exemplar),
-      level_(level),
-      scale_(static_cast<float>(1 << level)),
-      searchScale_(static_cast<float>(1 << (search.level() - level))) {
+      level_(search.level()),
+      scale_(static_cast<float>(1 << level_)) {
   chooseCentres(points, centreSpacing * windowTexels() * texelWorld, active);
   flatten(points, graph, texelWorld, jacobian);
   transpose(points.positions.size());
-  match_.assign(size(), {clampInside(Vec2f::Zero())});
+  match_.assign(size(), {search_.clampInside(Vec2f::Zero())});
   errors_.assign(size(), std::numeric_limits<float>::max());
 }
 
@@ -96,7 +95,7 @@ void WindowSet::transpose(std::size_t pointCount) {
 
 void WindowSet::matchOwnCharts(const SurfaceTexture& texture, float tolerance) {
   parallelFor(size(), 64, [&](std::size_t w) {
-    match_[w].uv = clampInside(texture.st[centres_[w]] / scale_);
+    match_[w].uv = search_.clampInside(texture.st[centres_[w]] / scale_);
     refine(w, texture.colour, refinementSteps, tolerance);
   });
 }
@@ -111,10 +110,9 @@ void WindowSet::matchNearest(const SurfaceTexture& texture, float tolerance, boo
 
 void WindowSet::matchOne(std::size_t w, const SurfaceTexture& texture, const std::vector<Placement>& previous,
                          bool everywhere) {
-  const NeighbourhoodSearch::Descriptor query = search_.describe(windowRaster(members(w), texture.colour, pixelSpacing()));
-  const auto texelOf = [&](const Vec2f& uv) {
-    return Vec2i((uv / searchScale_).array().floor().cast<int>().matrix());
-  };
+  const NeighbourhoodSearch::Descriptor query =
+      search_.describe(windowRaster(members(w), texture.colour, search_.pixelSpacing()));
+  const auto texelOf = [](const Vec2f& uv) { return Vec2i(uv.array().floor().cast<int>().matrix()); };
   NeighbourhoodSearch::Match coherent = search_.at(texelOf(previous[w].uv), query);
   Vec2f coherentUv = previous[w].uv;
   for (const NeighbourhoodPoint& m : members(w)) {
@@ -123,13 +121,12 @@ void WindowSet::matchOne(std::size_t w, const SurfaceTexture& texture, const std
     const NeighbourhoodSearch::Match match = search_.at(texelOf(previous[other].uv - m.displacement), query);
     if (match.distanceSquared >= coherent.distanceSquared) continue;
     coherent = match;
-    coherentUv = clampInside(previous[other].uv - m.displacement);
+    coherentUv = search_.clampInside(previous[other].uv - m.displacement);
   }
   NeighbourhoodSearch::Match best = coherent;
   best.distanceSquared *= coherence;
   if (everywhere) best = search_.nearest(query, best);
-  match_[w] = {best.texel == coherent.texel ? coherentUv
-                                            : searchScale_ * (best.texel.cast<float>() + Vec2f::Constant(0.5f))};
+  match_[w] = {best.texel == coherent.texel ? coherentUv : Vec2f(best.texel.cast<float>() + Vec2f::Constant(0.5f))};
   refine(w, texture.colour, refinementSteps, accurate);
 }
 
@@ -155,7 +152,7 @@ void WindowSet::refine(std::size_t w, std::span<const Texel> colour, int steps, 
   errors_[w] = error(match_[w]);
   for (int step = 0; step < steps && errors_[w] > goodEnough; ++step) {
     Placement next = gaussNewtonStep(exemplar_, level_, samples, match_[w]);
-    next.uv = clampInside(next.uv);
+    next.uv = search_.clampInside(next.uv);
     const float improved = error(next);
     if (!(improved < errors_[w])) return;
     errors_[w] = improved;

@@ -23,12 +23,11 @@ namespace ebru {
 /// Neighbourhoods of one window size over one set of points, and their matches.
 class WindowSet {
  public:
-  /// @param level  pyramid level of the points' colours; at most the search's level. A search on a coarser level looks at
-  ///               wider windows of the same points.
-  /// @param texelWorld  metres per texel of `level`
+  /// @param search  on the pyramid level of the points' colours
+  /// @param texelWorld  metres per texel of that level
   /// @param active  centres are placed on points with active != 0; empty: on all
   WindowSet(const OrientedPoints& points, const PointGraph& graph, const NeighbourhoodSearch& search,
-            const Exemplar& exemplar, int level, float texelWorld, float centreSpacing, std::span<const std::uint8_t> active,
+            const Exemplar& exemplar, float texelWorld, float centreSpacing, std::span<const std::uint8_t> active,
             std::span<const Mat2f> jacobian);
 
   std::size_t size() const { return centres_.size(); }
@@ -45,8 +44,6 @@ class WindowSet {
   /// Each point with a window takes the proposal nearest to its colour: colour, coordinate and Jacobian. Of those, if `only`
   /// is not empty, the points it marks.
   void choose(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const;
-  /// Root mean square distance of each window to its match, relative to the exemplar's contrast.
-  std::span<const float> errors() const { return errors_; }
 
  private:
   struct Proposal {
@@ -69,15 +66,12 @@ class WindowSet {
   void take(const Proposal& p, const SurfaceTexture& texture, std::size_t point) const;
   float fit(std::size_t w) const;
   float falloff(const Vec2f& displacement) const;
-  float pixelSpacing() const { return search_.pixelSpacing() * searchScale_; }
-  float windowTexels() const { return static_cast<float>(search_.window()) * searchScale_; }
-  Vec2f clampInside(const Vec2f& uv) const { return searchScale_ * search_.clampInside(uv / searchScale_); }
+  float windowTexels() const { return static_cast<float>(search_.window()); }
 
   const NeighbourhoodSearch& search_;
   const Exemplar& exemplar_;
-  int level_;          ///< of the points' colours
-  float scale_;        ///< level-0 texels per texel of level_
-  float searchScale_;  ///< texels of level_ per texel of the search's level
+  int level_;    ///< of the points' colours
+  float scale_;  ///< level-0 texels per texel of level_
   std::vector<std::uint32_t> centres_;
   std::vector<Mat2f> axes_;               ///< per window: from the centre's frame to the window
   std::vector<std::size_t> offsets_;      ///< windows + 1, into members_

@@ -216,7 +216,7 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
     });
   for (const NeighbourhoodSearch* search : {&wide_[l], &narrow_[l]}) {
     const bool wide = search->window() == 17;
-    WindowSet windows(view.points, graph, *search, *exemplar_, level, texel, 0.25f, {}, view.texture.jacobian);
+    WindowSet windows(view.points, graph, *search, *exemplar_, texel, 0.25f, {}, view.texture.jacobian);
     if (windows.size() == 0) return;
     windows.matchOwnCharts(view.texture, goodFit);
     const int iterations = coarsest ? 6 : wide ? 3 : 2;
@@ -272,7 +272,7 @@ void SynthesisMethod::refit(TextureParticles& particles, const std::vector<Parti
   exchange(region, exchangeSweeps);
   const std::vector<std::uint8_t> band = seamBand(view.points, graph, texelWorld_, region, bandRings, view.texture);
   for (const NeighbourhoodSearch* search : {&wide_[0], &narrow_[0]}) {
-    WindowSet windows(view.points, graph, *search, *exemplar_, 0, texelWorld_, 0.5f, band, view.texture.jacobian);
+    WindowSet windows(view.points, graph, *search, *exemplar_, texelWorld_, 0.5f, band, view.texture.jacobian);
     windows.matchOwnCharts(view.texture, goodFit);
     for (int i = 0; i < iterations_; ++i) {
       windows.matchNearest(view.texture, goodFit, i == 0);

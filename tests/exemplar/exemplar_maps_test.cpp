@@ -207,17 +207,20 @@ TEST_F(MapFiles, ThePicturesOwnAlphaStandsIn) {
   EXPECT_NEAR(readExemplarMaps({.colour = {clear}, .alpha = {named}}).front().alpha[5], 0.05f, 1e-6f) << "what is named wins";
 }
 
+/// The maps beside colour, and where their files are named.
+const std::pair<std::string, std::vector<std::string> ExemplarFiles::*> mapLists[] = {
+    {"height", &ExemplarFiles::height},
+    {"roughness", &ExemplarFiles::roughness},
+    {"alpha", &ExemplarFiles::alpha},
+    {"emission", &ExemplarFiles::emission}};
+
 TEST_F(MapFiles, ListsOfOtherLengthsAreNamed) {
   const std::string file = write("map.exr", {40, 30});
-  using Files = std::vector<std::string>;
-  for (const auto& [key, list] : {std::pair<std::string, Files ExemplarFiles::*>{"texture.height", &ExemplarFiles::height},
-                                  {"texture.roughness", &ExemplarFiles::roughness},
-                                  {"texture.alpha", &ExemplarFiles::alpha},
-                                  {"texture.emission", &ExemplarFiles::emission}}) {
+  for (const auto& [kind, list] : mapLists) {
     ExemplarFiles files{.colour = {file, file}};
     files.*list = {file};
     const std::string message = errorOf<UsageError>(files);
-    EXPECT_NE(message.find(key + ": number of files: got 1, expected 2 like texture.exemplar"), std::string::npos) << message;
+    EXPECT_NE(message.find("texture." + kind + ": number of files: got 1, expected 2 like texture.exemplar"), std::string::npos) << message;
     files.*list = {file, file};
     EXPECT_NO_THROW(readExemplarMaps(files));
   }
@@ -226,11 +229,7 @@ TEST_F(MapFiles, ListsOfOtherLengthsAreNamed) {
 
 TEST_F(MapFiles, MapsOfOtherSizesAreNamedWithTheirPicture) {
   const std::string first = write("first.exr", {40, 30}), second = write("second.exr", {30, 40});
-  using Files = std::vector<std::string>;
-  for (const auto& [kind, list] : {std::pair<std::string, Files ExemplarFiles::*>{"height", &ExemplarFiles::height},
-                                   {"roughness", &ExemplarFiles::roughness},
-                                   {"alpha", &ExemplarFiles::alpha},
-                                   {"emission", &ExemplarFiles::emission}}) {
+  for (const auto& [kind, list] : mapLists) {
     ExemplarFiles files{.colour = {first, second}};
     files.*list = {first, first};
     const std::string message = errorOf<InputError>(files);
