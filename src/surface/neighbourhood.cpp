@@ -27,9 +27,7 @@ Vec2f carriedTurn(const OrientedPoints& points, const NeighbourhoodPoint& from, 
 /// Displacement from a placed point to one whose turn is known, world units.
 Vec2f step(const OrientedPoints& points, const NeighbourhoodPoint& from, const NeighbourhoodPoint& to) {
   const Vec3f v = points.positions[to.index] - points.positions[from.index];
-  const Vec2f flat = inWindow(points, from, v) + inWindow(points, to, v);
-  const float length = flat.norm();
-  return length > 0.0f ? Vec2f(flat * (v.norm() / length)) : Vec2f::Zero();
+  return 0.5f * (inWindow(points, from, v) + inWindow(points, to, v));
 }
 
 }  // namespace

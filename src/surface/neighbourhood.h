@@ -33,7 +33,7 @@ struct OrientedPoints {
 /// displacement is the mean of what its already placed neighbours predict. The paper measures each step in the
 /// orientation field; here the centre's frame is carried along (the field tells only how far each point's own frame is
 /// turned against it), which is the same where the field is parallel and leaves no eddies around its singularities. A step
-/// is measured in the mean of the carried frames at its two ends and keeps its length.
+/// is the mean of its projections to the carried frames at its two ends.
 /// Holds scratch memory: one object per thread.
 class NeighbourhoodBuilder {
  public:

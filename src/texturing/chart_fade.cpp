@@ -23,6 +23,8 @@ void startFades(const ChartSnapshot& before, const std::vector<std::uint8_t>& re
   parallelFor(region.size(), 2048, [&](std::size_t i) {
     if (!region[i] || (before.st[i] - particles.st[i]).squaredNorm() < sameTexels * sameTexels) return;
     particles.age[i] = 0.0f;
+    // A chart that is replaced before it is all there hands its fade on.
+    if (particles.fade[i] > 0.0f && distortion(particles.fadingJacobian[i]) <= drawnOut) return;
     if (fates[i] == ParticleFate::orphan || distortion(before.jacobian[i]) > drawnOut) return;
     particles.fadingSt[i] = before.st[i];
     particles.fadingJacobian[i] = before.jacobian[i];

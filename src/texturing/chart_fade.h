@@ -20,7 +20,8 @@ struct ChartSnapshot {
 };
 
 /// Begins a fade where a chart of `region` shows another place than `before`; such texture's age is 0. New surface
-/// begins with its chart, and what was stretched by more than 2.2 is not shown any longer.
+/// begins with its chart, and what was stretched by more than 2.2 is not shown any longer. Where a fade is going on it stays:
+/// of the chart that is replaced little was seen.
 void startFades(const ChartSnapshot& before, const std::vector<std::uint8_t>& region, const std::vector<ParticleFate>& fates,
                 TextureParticles& particles);
 

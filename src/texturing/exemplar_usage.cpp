@@ -4,18 +4,21 @@
 
 namespace ebru {
 
-ExemplarUsage::ExemplarUsage(const Exemplar& exemplar, std::span<const Vec2f> st) : exemplar_(exemplar) {
+ExemplarUsage::ExemplarUsage(const Exemplar& exemplar, float perTexel)
+    : exemplar_(exemplar), once_(std::max(1.0f, perTexel * static_cast<float>(binTexels * binTexels))) {
   std::size_t count = 0;
   for (int tile = 0; tile < exemplar.tileCount(); ++tile) {
     first_.push_back(count);
     bins_.push_back((exemplar.tileSize(tile).array() + binTexels - 1) / binTexels);
     count += static_cast<std::size_t>(bins_.back().prod());
   }
-  excess_.assign(count, 0.0f);
-  for (const Vec2f& place : st) excess_[bin(place)] += 1.0f;
+  shown_.assign(count, 0);
+}
+
+float ExemplarUsage::excess(const Vec2f& st) const {
   // Bins at the right and lower border are smaller, those close to any border can hardly be reached: both count as rare.
-  const float mean = std::max(1.0f, static_cast<float>(st.size()) / static_cast<float>(count));
-  for (float& n : excess_) n = std::max(0.0f, n / mean - 1.0f);
+  const float mean = static_cast<float>(total_) / static_cast<float>(shown_.size());
+  return std::max(0.0f, static_cast<float>(shown_[bin(st)]) / std::max(once_, mean) - 1.0f);
 }
 
 std::size_t ExemplarUsage::bin(const Vec2f& st) const {

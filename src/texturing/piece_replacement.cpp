@@ -20,8 +20,8 @@ constexpr std::size_t refined = 3;
 constexpr int refinementSteps = 3;
 constexpr float largestRadius = 0.4f;  ///< of a piece, against the exemplar's smaller side
 /// Costs in squared contrasts: of a window from elsewhere against a chart that is there already, and of a place of the exemplar
-/// that is shown more than others, per mean that it is over the mean.
-constexpr float foreign = 0.1f, overuse = 0.3f;
+/// that is shown more than others, per ExemplarUsage::excess.
+constexpr float foreign = 0.1f, overuse = 1.0f;
 /// What is more worn says less about what should be there: full weight up to the first, least weight from the second on.
 constexpr float trusted = 1.25f, distrusted = 2.2f, leastWeight = 0.05f;
 
@@ -151,8 +151,10 @@ void replacePieces(const OrientedPoints& points, const PointGraph& graph, const 
   const float radius = std::min(shape.radius, largestRadius * static_cast<float>(exemplar.smallestSize().minCoeff()));
   const float reach = radius + shape.surroundings;
   const float apart = 2.0f * radius * texelWorld;
-  const ExemplarUsage usage(exemplar, texture.st);
   std::vector<std::uint8_t> remaining(region.begin(), region.end());
+  ExemplarUsage usage(exemplar, pointsPerTexel);
+  for (std::size_t i = 0; i < remaining.size(); ++i)
+    if (!remaining[i]) usage.add(texture.st[i]);
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < region.size(); ++i)
     if (region[i]) order.push_back(i);
@@ -188,6 +190,8 @@ void replacePieces(const OrientedPoints& points, const PointGraph& graph, const 
         remaining[m.index] = 0;
       }
     });
+    for (const std::uint32_t i : order)
+      if (!remaining[i]) usage.add(texture.st[i]);
     std::erase_if(order, [&](std::uint32_t i) { return !remaining[i]; });
   }
 }

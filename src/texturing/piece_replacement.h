@@ -27,9 +27,9 @@ struct PieceShape {
 /// Candidates for a piece: the centre's own chart, the charts of points around it, all laid rigidly, and the exemplar
 /// windows most similar to what lies there now. Their cost is the mean squared colour difference to the disc and its
 /// surroundings, in which a point that is to be replaced counts the less the more it is worn; plus a tenth of the
-/// exemplar's variance for what is not a chart there already, so that pieces go on; plus three tenths of it for every
-/// mean that a place of the exemplar is shown above the mean (ExemplarUsage). The best three are refined to fractions
-/// of a texel and a small angle.
+/// exemplar's variance for what is not a chart there already, so that pieces go on; plus the variance times
+/// ExemplarUsage::excess of what is not to be replaced or laid already. The best three are refined to fractions of a texel
+/// and a small angle.
 ///
 /// @param search  the windows that are asked
 /// @param region  1: to be replaced

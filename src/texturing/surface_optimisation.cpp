@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "surface/cell_grid.h"
+#include "texturing/exemplar_usage.h"
 #include "texturing/texture_particles.h"
 #include "texturing/window_raster.h"
 
@@ -14,6 +15,8 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffu;
 /// A window found by search has to be this much better than one that continues a neighbour's.
 constexpr float coherence = 0.8f;
+/// How much less a window counts whose match is used more than others, per ExemplarUsage::excess.
+constexpr float overuse = 3.0f;
 constexpr int refinementSteps = 2;
 constexpr float accurate = 0.05f;  ///< a window that fits this well is not refined further
 /// Members of a window that are asked how well it fits; more hardly change the answer.
@@ -160,24 +163,30 @@ void WindowSet::refine(std::size_t w, std::span<const Texel> colour, int steps, 
   }
 }
 
-float WindowSet::fit(std::size_t w) const {
-  // |error|^(r - 2) with r = 0.8 [Kwatra 2005, sec. 3.3]; the offset keeps perfect windows finite.
-  return std::pow(errors_[w] + 0.05f, -1.2f);
+std::vector<float> WindowSet::weights() const {
+  const float windowsPerPoint = static_cast<float>(size()) / static_cast<float>(windowOfPoint_.size());
+  ExemplarUsage usage(exemplar_, windowsPerPoint * pointsPerTexel / (scale_ * scale_));
+  for (const Placement& match : match_) usage.add(scale_ * match.uv);
+  std::vector<float> weights(size());
+  parallelFor(size(), 1024, [&](std::size_t w) {
+    // |error|^(r - 2) with r = 0.8 [Kwatra 2005, sec. 3.3]; the offset keeps perfect windows finite.
+    weights[w] = std::pow(errors_[w] + 0.05f, -1.2f) / (1.0f + overuse * usage.excess(scale_ * match_[w].uv));
+  });
+  return weights;
 }
 
 void WindowSet::average(const SurfaceTexture& texture, std::span<const std::uint8_t> only) const {
-  std::vector<float> fits(size());
-  parallelFor(size(), 1024, [&](std::size_t w) { fits[w] = fit(w); });
+  const std::vector<float> weightOf = weights();
   parallelFor(texture.colour.size(), 256, [&](std::size_t i) {
     if (proposals(i).empty() || (!only.empty() && !only[i])) return;
     Texel sum = Texel::Zero();
-    float weights = 0.0f;
+    float total = 0.0f;
     for (const Proposal& p : proposals(i)) {
-      const float g = falloff(p.displacement) * fits[p.window];
+      const float g = falloff(p.displacement) * weightOf[p.window];
       sum += g * exemplar_.sample(level_, match_[p.window].at(p.displacement));
-      weights += g;
+      total += g;
     }
-    texture.colour[i] = sum / weights;
+    texture.colour[i] = sum / total;
   });
 }
 

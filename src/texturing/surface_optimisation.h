@@ -17,8 +17,9 @@ namespace ebru {
 ///
 /// Beyond the paper: a window's place in the exemplar is continuous (position and angle are refined against the points,
 /// which stands in for the paper's sub-pixel shifts); proposals are weighted by how well their window fits, as in the
-/// robust energy of [Kwatra 2005, sec. 3.3]; and at the end each point takes the one proposal nearest to the mean,
-/// with its exemplar coordinate, so that no contrast is lost to averaging.
+/// robust energy of [Kwatra 2005, sec. 3.3], and by how seldom their place in the exemplar is used, after [Kopf 2007, sec. 5],
+/// since the flattest place fits everywhere; and at the end each point takes the one proposal nearest to the mean, with
+/// its exemplar coordinate, so that no contrast is lost to averaging.
 
 /// Neighbourhoods of one window size over one set of points, and their matches.
 class WindowSet {
@@ -64,7 +65,8 @@ class WindowSet {
   /// Brings a match and its error up to date; no step is taken from an error of at most `goodEnough`.
   void refine(std::size_t w, std::span<const Texel> colour, int steps, float goodEnough);
   void take(const Proposal& p, const SurfaceTexture& texture, std::size_t point) const;
-  float fit(std::size_t w) const;
+  /// Weight of each window's proposals: of how well it fits, and how often its match is used.
+  std::vector<float> weights() const;
   float falloff(const Vec2f& displacement) const;
   float windowTexels() const { return static_cast<float>(search_.window()); }
 

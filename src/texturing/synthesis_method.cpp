@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "surface/flat_frames.h"
 #include "surface/orientation_field.h"
 #include "surface/point_graph.h"
 #include "surface/point_index.h"
@@ -31,6 +32,8 @@ constexpr float goodFit = 0.15f;           ///< a window that fits this well (in
 constexpr float radiusFeatures = 1.6f;      ///< radius of a piece, in features of the exemplar
 constexpr float windowFeatures = 2.0f;      ///< least width of the windows a piece is searched with
 constexpr float surroundingsTexels = 4.0f;  ///< around a piece, that its choice looks at
+/// Bumps the texture is laid over: sigma of the normals' diffusion, in features, and at most, in texels.
+constexpr float bumpFeatures = 0.35f, mostBumpTexels = 5.0f;
 constexpr int exchangeSweeps = 6;
 constexpr int bandRings = 5;                ///< healed on each side of a seam
 constexpr int mendingSweeps = 3;            ///< of exchange, after the votes
@@ -38,13 +41,12 @@ constexpr int mendingSweeps = 3;            ///< of exchange, after the votes
 /// Charts to start from where there is no texture yet: pieces of half the exemplar's size in a box projection, each from a
 /// random place of it; of several images, half the size of the smallest, each from a random one. Optimisation heals their
 /// seams and what the projection stretched.
-void layPiece(const Exemplar& exemplar, float texelWorld, std::uint64_t seed, TextureParticles& particles,
-              std::size_t i) {
-  const Vec3f& normal = particles.normal[i];
-  boxProjection(particles.position[i], normal, particles.orientation[i], texelWorld, particles.st[i],
-                particles.jacobian[i]);
+void layPiece(const Exemplar& exemplar, float texelWorld, std::uint64_t seed, const OrientedPoints& points,
+              const SurfaceTexture& texture, std::size_t i) {
+  const Vec3f& normal = points.normals[i];
+  boxProjection(points.positions[i], normal, points.orientations[i], texelWorld, texture.st[i], texture.jacobian[i]);
   const Vec2f piece = 0.5f * exemplar.smallestSize().cast<float>();
-  const Vec2i index = (particles.st[i].array() / piece.array()).floor().cast<int>().matrix();
+  const Vec2i index = (texture.st[i].array() / piece.array()).floor().cast<int>().matrix();
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   const auto side = static_cast<std::uint64_t>(2 * axis + (normal[axis] < 0.0f));
@@ -53,7 +55,7 @@ void layPiece(const Exemplar& exemplar, float texelWorld, std::uint64_t seed, Te
   const int tile = static_cast<int>(random.below(static_cast<std::uint32_t>(exemplar.tileCount())));
   const Vec2f room = exemplar.tileSize(tile).cast<float>() - piece;
   const Vec2f corner = exemplar.tileOrigin(tile).cast<float>() + share.cwiseProduct(room);
-  particles.st[i] += corner - (index.cast<float>().array() * piece.array()).matrix();
+  texture.st[i] += corner - (index.cast<float>().array() * piece.array()).matrix();
 }
 
 PointGraph ringGraph(const OrientedPoints& points, float texelWorld) {
@@ -93,6 +95,7 @@ class SynthesisMethod : public TextureMethod {
     }
     const float feature = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(*exemplar_);
     pieces_ = {radiusFeatures * feature, surroundingsTexels};
+    bumpTexels_ = std::min(bumpFeatures * feature, mostBumpTexels);
     while (pieceLevel_ + 1 < wide_.size() && static_cast<float>(17 << pieceLevel_) < windowFeatures * feature) ++pieceLevel_;
   }
 
@@ -120,6 +123,9 @@ class SynthesisMethod : public TextureMethod {
   void inheritFromCoarser(TextureParticles& particles, std::size_t coarse, std::size_t fine, int level) const;
   void synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest);
   void refit(TextureParticles& particles, const std::vector<ParticleFate>& fates);
+  /// New texture for the points of `region`. Points and Jacobians are in flat frames.
+  void renew(const OrientedPoints& points, const PointGraph& graph, const std::vector<std::uint8_t>& region,
+             const std::vector<float>& wear, TextureParticles& particles) const;
   void publish(TextureParticles particles) {
     particles_ = std::make_shared<const TextureParticles>(std::move(particles));
     const PhaseTimer timer(times_, "index");
@@ -133,6 +139,7 @@ class SynthesisMethod : public TextureMethod {
   PhaseTimes* times_;
   std::shared_ptr<const Exemplar> exemplar_;
   PieceShape pieces_;
+  float bumpTexels_ = 0.0f;
   std::size_t pieceLevel_ = 0;                      ///< whose windows of 17 hold a feature
   std::vector<NeighbourhoodSearch> wide_, narrow_;  ///< per level: windows of 17 and 9
   std::shared_ptr<const TextureParticles> particles_;
@@ -209,23 +216,30 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
   std::copy(orientation.begin(), orientation.end(), particles.orientation.begin());
 
   const auto l = static_cast<std::size_t>(level);
-  if (coarsest)
-    parallelFor(count, 1024, [&](std::size_t i) {
-      layPiece(*exemplar_, texelWorld_, seed_, particles, i);
-      particles.colour[i] = exemplar_->sample(level, particles.st[i] / static_cast<float>(1 << level));
-    });
+  const FlatFrames flat(view.points, graph, bumpTexels_ / static_cast<float>(1 << level));
+  const OrientedPoints points = flat.points();
+  parallelFor(count, 1024, [&](std::size_t i) {
+    if (coarsest) {
+      layPiece(*exemplar_, texelWorld_, seed_, points, view.texture, i);
+      view.texture.colour[i] = exemplar_->sample(level, view.texture.st[i] / static_cast<float>(1 << level));
+    } else {
+      view.texture.jacobian[i] = flat.flattened(i, view.texture.jacobian[i]);
+    }
+  });
   for (const NeighbourhoodSearch* search : {&wide_[l], &narrow_[l]}) {
     const bool wide = search->window() == 17;
-    WindowSet windows(view.points, graph, *search, *exemplar_, texel, 0.25f, {}, view.texture.jacobian);
-    if (windows.size() == 0) return;
+    WindowSet windows(points, graph, *search, *exemplar_, texel, 0.25f, {}, view.texture.jacobian);
     windows.matchOwnCharts(view.texture, goodFit);
     const int iterations = coarsest ? 6 : wide ? 3 : 2;
     for (int i = 0; i < iterations; ++i) {
       windows.matchNearest(view.texture, goodFit, i == 0 || coarsest);
       windows.average(view.texture, {});
+      windows.choose(view.texture, {});
     }
-    windows.choose(view.texture, {});
   }
+  parallelFor(count, 4096, [&](std::size_t i) {
+    view.texture.jacobian[i] = flat.unflattened(i, view.texture.jacobian[i]);
+  });
 }
 
 void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
@@ -251,38 +265,53 @@ void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
 
 void SynthesisMethod::refit(TextureParticles& particles, const std::vector<ParticleFate>& fates) {
   advanceFades(particles);
+  LevelView view = firstPoints(particles, particles.size());
   parallelFor(particles.size(), 1024, [&](std::size_t i) {
     if (fates[i] != ParticleFate::orphan) return;
-    layPiece(*exemplar_, texelWorld_, seed_, particles, i);
+    layPiece(*exemplar_, texelWorld_, seed_, view.points, view.texture, i);
     particles.colour[i] = exemplar_->sample(0, particles.st[i]);
   });
-  if (iterations_ == 0) return;
+  const auto still = [](ParticleFate fate) { return fate == ParticleFate::still; };
+  if (iterations_ == 0 || std::all_of(fates.begin(), fates.end(), still)) return;
+  const PointGraph graph = ringGraph(view.points, texelWorld_);
+  const FlatFrames flat(view.points, graph, bumpTexels_);
+  const ChartSnapshot before{particles.st, particles.jacobian};
+  parallelFor(particles.size(), 4096, [&](std::size_t i) {
+    particles.jacobian[i] = flat.flattened(i, before.jacobian[i]);
+  });
   const std::vector<float> wear = textureWear(particles, fates, *exemplar_);
   const std::vector<std::uint8_t> region = wornRegion(particles, wear, pieces_.radius * texelWorld_);
-  if (std::find(region.begin(), region.end(), 1) == region.end()) return;
-  const ChartSnapshot before{particles.st, particles.jacobian};
-  LevelView view = firstPoints(particles, particles.size());
-  const PointGraph graph = ringGraph(view.points, texelWorld_);
+  if (std::find(region.begin(), region.end(), 1) != region.end())
+    renew(flat.points(), graph, region, wear, particles);
+  // What was not touched keeps its bits.
+  parallelFor(particles.size(), 4096, [&](std::size_t i) {
+    particles.jacobian[i] = region[i] ? flat.unflattened(i, particles.jacobian[i]) : before.jacobian[i];
+  });
+  startFades(before, region, fates, particles);
+}
+
+void SynthesisMethod::renew(const OrientedPoints& points, const PointGraph& graph, const std::vector<std::uint8_t>& region,
+                            const std::vector<float>& wear, TextureParticles& particles) const {
+  const SurfaceTexture texture{particles.colour, particles.st, particles.jacobian};
   const std::vector<Texel> colour(particles.colour);
   const std::vector<float> weight = transportWeights(particles, wear, graph);
   const auto exchange = [&](const std::vector<std::uint8_t>& only, int sweeps) {
-    exchangeCharts(view.points, graph, *exemplar_, texelWorld_, only, {colour, weight}, sweeps, view.texture);
+    exchangeCharts(points, graph, *exemplar_, texelWorld_, only, {colour, weight}, sweeps, texture);
   };
-  replacePieces(view.points, graph, *exemplar_, wide_[pieceLevel_], texelWorld_, pieces_, region, wear, view.texture);
+  replacePieces(points, graph, *exemplar_, wide_[pieceLevel_], texelWorld_, pieces_, region, wear, texture);
   exchange(region, exchangeSweeps);
-  const std::vector<std::uint8_t> band = seamBand(view.points, graph, texelWorld_, region, bandRings, view.texture);
+  const std::vector<std::uint8_t> band = seamBand(points, graph, texelWorld_, region, bandRings, texture);
   for (const NeighbourhoodSearch* search : {&wide_[0], &narrow_[0]}) {
-    WindowSet windows(view.points, graph, *search, *exemplar_, texelWorld_, 0.5f, band, view.texture.jacobian);
-    windows.matchOwnCharts(view.texture, goodFit);
+    WindowSet windows(points, graph, *search, *exemplar_, texelWorld_, 0.5f, band, texture.jacobian);
+    windows.matchOwnCharts(texture, goodFit);
     for (int i = 0; i < iterations_; ++i) {
-      windows.matchNearest(view.texture, goodFit, i == 0);
-      windows.average(view.texture, band);
+      windows.matchNearest(texture, goodFit, i == 0);
+      windows.average(texture, band);
     }
-    windows.choose(view.texture, band);
+    windows.choose(texture, band);
   }
   // What the votes left in splinters grows together again.
   exchange(band, mendingSweeps);
-  startFades(before, region, fates, particles);
 }
 
 }  // namespace

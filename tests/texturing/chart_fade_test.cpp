@@ -54,6 +54,23 @@ TEST(ChartFade, TakesThreeFramesInEqualSteps) {
   EXPECT_EQ(shares[3], 0.0f);
 }
 
+// A chart replaced before it is all there was hardly seen: what fades goes on fading.
+TEST(ChartFade, IsHandedOn) {
+  Top top;
+  top.particles.st[4] += Vec2f(5.0f, 0.0f);
+  startFades(top.before, top.region, top.fates, top.particles);
+  advanceFades(top.particles);
+  const ChartSnapshot between{top.particles.st, top.particles.jacobian};
+  top.particles.st[4] += Vec2f(0.0f, 7.0f);
+  startFades(between, top.region, top.fates, top.particles);
+  EXPECT_EQ(top.particles.fadingSt[4], top.before.st[4]);
+  EXPECT_NEAR(top.particles.fade[4], 1.0f / 3.0f, 1e-6f);
+  top.particles.fadingJacobian[4] *= 0.4f;
+  top.particles.st[4] += Vec2f(0.0f, 7.0f);
+  startFades(between, top.region, top.fates, top.particles);
+  EXPECT_EQ(top.particles.fadingSt[4], between.st[4]) << "what fades is drawn out";
+}
+
 // The look-up shows both charts in their shares.
 TEST(ChartFade, ThePictureIsTheMeanOfBothCharts) {
   constexpr float texel = 0.05f;
