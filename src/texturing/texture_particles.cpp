@@ -20,8 +20,8 @@ void gather(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
   values.swap(result);
 }
 
-/// Peak memory of synthesis per particle: arrays, graph, cached windows, search trees.
-constexpr double bytesPerParticle = 1000.0;
+/// Peak memory of synthesis per particle: arrays, graph, windows, search trees.
+constexpr double bytesPerParticle = 750.0;
 
 }  // namespace
 
@@ -109,17 +109,16 @@ Mat2f nearestRotation(const Mat2f& jacobian) {
 }
 
 void checkParticleCount(const FluidFrame& frame, float texelWorld) {
-  // About 0.7 particles per square of the Poisson spacing.
-  const double spacing = static_cast<double>(poissonSpacingTexels) * texelWorld;
+  const double texel = texelWorld;
   const double area = surfaceArea(frame.mesh);
-  const double count = 0.7 * area / (spacing * spacing);
+  const double count = pointsPerTexel * area / (texel * texel);
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   const double limit = std::min(0.8 * memory / bytesPerParticle, 4294967295.0 / 4);
   if (count <= limit) return;
-  const double texel = texelWorld * std::sqrt(count / limit) * 1.1;
+  const double expected = texel * std::sqrt(count / limit) * 1.1;
   throw InputError(fmt::format("{}: texture.texel_size: got {:g} m, which needs {:.3g} particles for {:.3g} m2 of surface "
                                "({:.3g} GB; the machine has {:.3g}); expected at least {:.2g} m",
-                               frame.source, texelWorld, count, area, count * bytesPerParticle / 1e9, memory / 1e9, texel));
+                               frame.source, texelWorld, count, area, count * bytesPerParticle / 1e9, memory / 1e9, expected));
 }
 
 }  // namespace ebru
