@@ -44,8 +44,8 @@ struct TextureParticles {
 
 /// Minimum distance of new particles, in texels.
 constexpr float poissonSpacingTexels = 0.82f;
-/// Of a dense Poisson-disk set of that spacing, per square texel (0.7 / spacing^2).
-constexpr float pointsPerTexel = 1.04f;
+/// Of a dense Poisson-disk set of that spacing, per square texel.
+constexpr float pointsPerTexel = 0.7f / (poissonSpacingTexels * poissonSpacingTexels);
 
 /// Displacement of a world point from particle i, in its frame, in texels.
 Vec2f localTexels(const TextureParticles& particles, std::size_t i, const Vec3f& pWorld, float texelWorld);
