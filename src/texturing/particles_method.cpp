@@ -3,12 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/parallel.h"
-#include "surface/orientation_field.h"
-#include "surface/poisson_sampling.h"
 #include "texturing/nearest_particles.h"
-#include "texturing/open_exemplar.h"
-#include "texturing/texture_transport.h"
+#include "texturing/particle_method.h"
 
 namespace ebru {
 namespace {
@@ -67,57 +63,20 @@ class CoordinateField : public TextureField {
   std::shared_ptr<const Exemplar> exemplar_;
 };
 
-class ParticlesMethod : public TextureMethod {
+class ParticlesMethod : public ParticleMethod {
  public:
   ParticlesMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
-      : texelWorld_(static_cast<float>(options.texel_size)),
-        seed_(seed),
-        times_(times),
-        exemplar_(openExemplar(options)) {}
-
-  void start(const FluidFrame& first) override {
-    const PhaseTimer timer(times_, "sampling");
-    checkParticleCount(first, texelWorld_);
-    TextureParticles particles;
-    std::vector<ParticleFate> fates;
-    keepSpacing(first, *exemplar_, texelWorld_, seed_, particles, fates);
-    publish(std::move(particles));
-  }
-
-  void advance(const FluidFrame& from, const FluidFrame& to) override {
-    checkParticleCount(to, texelWorld_);
-    TextureParticles particles = *particles_;
-    std::vector<ParticleFate> fates;
-    {
-      const PhaseTimer timer(times_, "transport");
-      fates = carryParticles(from, to, texelWorld_, particles);
-    }
-    const PhaseTimer timer(times_, "sampling");
-    keepSpacing(to, *exemplar_, texelWorld_, seed_, particles, fates);
-    publish(std::move(particles));
-  }
-
-  std::shared_ptr<const TextureField> field() const override { return field_; }
-  void save(StateWriter& writer) const override { particles_->save(writer); }
-  void load(const StateReader& reader) override {
-    TextureParticles particles;
-    particles.load(reader);
-    publish(std::move(particles));
-  }
+      : ParticleMethod(options, seed, times) {}
 
  private:
-  void publish(TextureParticles particles) {
-    particles_ = std::make_shared<const TextureParticles>(std::move(particles));
-    const PhaseTimer timer(times_, "index");
-    field_ = std::make_shared<CoordinateField>(particles_, exemplar_, texelWorld_);
+  void startFrom(const FluidFrame& first, TextureParticles& particles) override {
+    const PhaseTimer timer(times(), "sampling");
+    std::vector<ParticleFate> fates;
+    keepSpacing(first, *exemplar(), texelWorld(), seed(), particles, fates);
   }
-
-  float texelWorld_;
-  std::uint64_t seed_;
-  PhaseTimes* times_;
-  std::shared_ptr<const Exemplar> exemplar_;
-  std::shared_ptr<const TextureParticles> particles_;
-  std::shared_ptr<const TextureField> field_;
+  std::shared_ptr<const TextureField> makeField(std::shared_ptr<const TextureParticles> particles) const override {
+    return std::make_shared<CoordinateField>(std::move(particles), exemplar(), texelWorld());
+  }
 };
 
 }  // namespace

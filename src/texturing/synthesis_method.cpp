@@ -14,7 +14,7 @@
 #include "texturing/chart_field.h"
 #include "exemplar/feature_size.h"
 #include "texturing/grid_transport.h"
-#include "texturing/open_exemplar.h"
+#include "texturing/particle_method.h"
 #include "texturing/piece_replacement.h"
 #include "texturing/seam_exchange.h"
 #include "texturing/surface_optimisation.h"
@@ -78,35 +78,20 @@ Hierarchy sampleHierarchy(const FluidFrame& frame, float texelWorld, int levels,
   return h;
 }
 
-class SynthesisMethod : public TextureMethod {
+class SynthesisMethod : public ParticleMethod {
  public:
   SynthesisMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
-      : texelWorld_(static_cast<float>(options.texel_size)),
-        throughGrid_(options.transport == "grid"),
-        iterations_(options.iterations),
-        seed_(seed),
-        times_(times),
-        exemplar_(openExemplar(options)) {
-    const PhaseTimer timer(times_, "exemplar");
-    const int levels = std::min(maxLevels, exemplar_->levelCount());
+      : ParticleMethod(options, seed, times), throughGrid_(options.transport == "grid"), iterations_(options.iterations) {
+    const PhaseTimer timer(times, "exemplar");
+    const int levels = std::min(maxLevels, exemplar()->levelCount());
     for (int level = 0; level < levels; ++level) {
-      wide_.emplace_back(*exemplar_, level, 17);
-      narrow_.emplace_back(*exemplar_, level, 9);
+      wide_.emplace_back(*exemplar(), level, 17);
+      narrow_.emplace_back(*exemplar(), level, 9);
     }
-    const float feature = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(*exemplar_);
+    const float feature = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(*exemplar());
     pieces_ = {radiusFeatures * feature, surroundingsTexels};
     bumpTexels_ = std::min(bumpFeatures * feature, mostBumpTexels);
     while (pieceLevel_ + 1 < wide_.size() && static_cast<float>(17 << pieceLevel_) < windowFeatures * feature) ++pieceLevel_;
-  }
-
-  void start(const FluidFrame& first) override;
-  void advance(const FluidFrame& from, const FluidFrame& to) override;
-  std::shared_ptr<const TextureField> field() const override { return field_; }
-  void save(StateWriter& writer) const override { particles_->save(writer); }
-  void load(const StateReader& reader) override {
-    TextureParticles particles;
-    particles.load(reader);
-    publish(std::move(particles));
   }
 
  private:
@@ -118,50 +103,39 @@ class SynthesisMethod : public TextureMethod {
     return {{std::span(p.position).first(count), std::span(p.normal).first(count), std::span(p.orientation).first(count)},
             {std::span(p.colour).first(count), std::span(p.st).first(count), std::span(p.jacobian).first(count)}};
   }
-  /// The first frame that has fluid; `particles` is empty but for the next id.
-  void synthesiseFrom(const FluidFrame& first, TextureParticles particles);
+  void startFrom(const FluidFrame& first, TextureParticles& particles) override;
+  std::vector<ParticleFate> carry(const FluidFrame& from, const FluidFrame& to, TextureParticles& particles) const override;
+  void retexture(const FluidFrame& frame, const std::vector<ParticleFate>& fates, TextureParticles& particles) const override;
+  std::shared_ptr<const TextureField> makeField(std::shared_ptr<const TextureParticles> particles) const override {
+    return std::make_shared<ChartField>(std::move(particles), exemplar(), texelWorld());
+  }
   void inheritFromCoarser(TextureParticles& particles, std::size_t coarse, std::size_t fine, int level) const;
-  void synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest);
-  void refit(TextureParticles& particles, const std::vector<ParticleFate>& fates);
+  void synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest) const;
   /// New texture for the points of `region`. Points and Jacobians are in flat frames.
   void renew(const OrientedPoints& points, const PointGraph& graph, const std::vector<std::uint8_t>& region,
              const std::vector<float>& wear, TextureParticles& particles) const;
-  void publish(TextureParticles particles) {
-    particles_ = std::make_shared<const TextureParticles>(std::move(particles));
-    const PhaseTimer timer(times_, "index");
-    field_ = std::make_shared<ChartField>(particles_, exemplar_, texelWorld_);
-  }
 
-  float texelWorld_;
   bool throughGrid_;
   int iterations_;  ///< rounds of optimisation per window size in later frames
-  std::uint64_t seed_;
-  PhaseTimes* times_;
-  std::shared_ptr<const Exemplar> exemplar_;
   PieceShape pieces_;
   float bumpTexels_ = 0.0f;
   std::size_t pieceLevel_ = 0;                      ///< whose windows of 17 hold a feature
   std::vector<NeighbourhoodSearch> wide_, narrow_;  ///< per level: windows of 17 and 9
-  std::shared_ptr<const TextureParticles> particles_;
-  std::shared_ptr<const TextureField> field_;
 };
 
-void SynthesisMethod::start(const FluidFrame& first) { synthesiseFrom(first, {}); }
-
-void SynthesisMethod::synthesiseFrom(const FluidFrame& first, TextureParticles particles) {
-  checkParticleCount(first, texelWorld_);
+void SynthesisMethod::startFrom(const FluidFrame& first, TextureParticles& particles) {
   const int levels = static_cast<int>(wide_.size());
   Hierarchy hierarchy;
   {
-    const PhaseTimer timer(times_, "sampling");
-    hierarchy = sampleHierarchy(first, texelWorld_, levels, seed_);
+    const PhaseTimer timer(times(), "sampling");
+    hierarchy = sampleHierarchy(first, texelWorld(), levels, seed());
   }
   particles.append(hierarchy.samples.size());
   particles.position = std::move(hierarchy.samples.positions);
   particles.normal = std::move(hierarchy.samples.normals);
   particles.orientation = projectedAxis(particles.normal, Vec3f(1.0f, 0.0f, 0.0f));
   {
-    const PhaseTimer timer(times_, "synthesis");
+    const PhaseTimer timer(times(), "synthesis");
     std::size_t coarser = 0;
     for (int k = 0; k < levels; ++k) {
       const std::size_t count = hierarchy.counts[static_cast<std::size_t>(k)];
@@ -173,11 +147,10 @@ void SynthesisMethod::synthesiseFrom(const FluidFrame& first, TextureParticles p
   }
   std::vector<ParticleFate> fates(particles.size(), ParticleFate::carried);
   {
-    const PhaseTimer timer(times_, "sampling");
-    keepSpacing(first, *exemplar_, texelWorld_, seed_, particles, fates);
+    const PhaseTimer timer(times(), "sampling");
+    keepSpacing(first, *exemplar(), texelWorld(), seed(), particles, fates);
   }
   std::fill(particles.age.begin(), particles.age.end(), 0.0f);
-  publish(std::move(particles));
 }
 
 /// Up-sampling: finer points take frame and chart of the nearest coarser one, and the exemplar's colour there. Where the
@@ -200,15 +173,15 @@ void SynthesisMethod::inheritFromCoarser(TextureParticles& particles, std::size_
               transportTangent(particles.orientation[j], particles.normal[j], particles.normal[i]).normalized();
         particles.jacobian[i] = particles.jacobian[j];
         particles.st[i] = particles.st[j] +
-                          particles.jacobian[j] * localTexels(particles, j, particles.position[i], texelWorld_);
+                          particles.jacobian[j] * localTexels(particles, j, particles.position[i], texelWorld());
       }
     }
-    particles.colour[i] = exemplar_->sample(level, particles.st[i] / levelScale);
+    particles.colour[i] = exemplar()->sample(level, particles.st[i] / levelScale);
   });
 }
 
-void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest) {
-  const float texel = texelWorld_ * static_cast<float>(1 << level);
+void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t count, int level, bool coarsest) const {
+  const float texel = texelWorld() * static_cast<float>(1 << level);
   LevelView view = firstPoints(particles, count);
   const PointGraph graph = ringGraph(view.points, texel);
   std::vector<Vec3f> orientation(view.points.orientations.begin(), view.points.orientations.end());
@@ -220,15 +193,15 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
   const OrientedPoints points = flat.points();
   parallelFor(count, 1024, [&](std::size_t i) {
     if (coarsest) {
-      layPiece(*exemplar_, texelWorld_, seed_, points, view.texture, i);
-      view.texture.colour[i] = exemplar_->sample(level, view.texture.st[i] / static_cast<float>(1 << level));
+      layPiece(*exemplar(), texelWorld(), seed(), points, view.texture, i);
+      view.texture.colour[i] = exemplar()->sample(level, view.texture.st[i] / static_cast<float>(1 << level));
     } else {
       view.texture.jacobian[i] = flat.flattened(i, view.texture.jacobian[i]);
     }
   });
   for (const NeighbourhoodSearch* search : {&wide_[l], &narrow_[l]}) {
     const bool wide = search->window() == 17;
-    WindowSet windows(points, graph, *search, *exemplar_, texel, 0.25f, {}, view.texture.jacobian);
+    WindowSet windows(points, graph, *search, *exemplar(), texel, 0.25f, {}, view.texture.jacobian);
     windows.matchOwnCharts(view.texture, goodFit);
     const int iterations = coarsest ? 6 : wide ? 3 : 2;
     for (int i = 0; i < iterations; ++i) {
@@ -242,45 +215,31 @@ void SynthesisMethod::synthesiseLevel(TextureParticles& particles, std::size_t c
   });
 }
 
-void SynthesisMethod::advance(const FluidFrame& from, const FluidFrame& to) {
-  if (particles_->size() == 0) return synthesiseFrom(to, *particles_);
-  checkParticleCount(to, texelWorld_);
-  TextureParticles particles = *particles_;
-  std::vector<ParticleFate> fates;
-  {
-    const PhaseTimer timer(times_, "transport");
-    fates = throughGrid_ ? transportThroughGrid(from, to, *exemplar_, texelWorld_, seed_, particles)
-                         : carryParticles(from, to, texelWorld_, particles);
-  }
-  {
-    const PhaseTimer timer(times_, "sampling");
-    keepSpacing(to, *exemplar_, texelWorld_, seed_, particles, fates);
-  }
-  {
-    const PhaseTimer timer(times_, "synthesis");
-    refit(particles, fates);
-  }
-  publish(std::move(particles));
+std::vector<ParticleFate> SynthesisMethod::carry(const FluidFrame& from, const FluidFrame& to,
+                                                 TextureParticles& particles) const {
+  return throughGrid_ ? transportThroughGrid(from, to, *exemplar(), texelWorld(), seed(), particles)
+                      : carryParticles(from, to, texelWorld(), particles);
 }
 
-void SynthesisMethod::refit(TextureParticles& particles, const std::vector<ParticleFate>& fates) {
+void SynthesisMethod::retexture(const FluidFrame& /*frame*/, const std::vector<ParticleFate>& fates,
+                                TextureParticles& particles) const {
   advanceFades(particles);
   LevelView view = firstPoints(particles, particles.size());
   parallelFor(particles.size(), 1024, [&](std::size_t i) {
     if (fates[i] != ParticleFate::orphan) return;
-    layPiece(*exemplar_, texelWorld_, seed_, view.points, view.texture, i);
-    particles.colour[i] = exemplar_->sample(0, particles.st[i]);
+    layPiece(*exemplar(), texelWorld(), seed(), view.points, view.texture, i);
+    particles.colour[i] = exemplar()->sample(0, particles.st[i]);
   });
   const auto still = [](ParticleFate fate) { return fate == ParticleFate::still; };
   if (iterations_ == 0 || std::all_of(fates.begin(), fates.end(), still)) return;
-  const PointGraph graph = ringGraph(view.points, texelWorld_);
+  const PointGraph graph = ringGraph(view.points, texelWorld());
   const FlatFrames flat(view.points, graph, bumpTexels_);
   const ChartSnapshot before{particles.st, particles.jacobian};
   parallelFor(particles.size(), 4096, [&](std::size_t i) {
     particles.jacobian[i] = flat.flattened(i, before.jacobian[i]);
   });
-  const std::vector<float> wear = textureWear(particles, fates, *exemplar_);
-  const std::vector<std::uint8_t> region = wornRegion(particles, wear, pieces_.radius * texelWorld_);
+  const std::vector<float> wear = textureWear(particles, fates, *exemplar());
+  const std::vector<std::uint8_t> region = wornRegion(particles, wear, pieces_.radius * texelWorld());
   if (std::find(region.begin(), region.end(), 1) != region.end())
     renew(flat.points(), graph, region, wear, particles);
   // What was not touched keeps its bits.
@@ -296,13 +255,13 @@ void SynthesisMethod::renew(const OrientedPoints& points, const PointGraph& grap
   const std::vector<Texel> colour(particles.colour);
   const std::vector<float> weight = transportWeights(particles, wear, graph);
   const auto exchange = [&](const std::vector<std::uint8_t>& only, int sweeps) {
-    exchangeCharts(points, graph, *exemplar_, texelWorld_, only, {colour, weight}, sweeps, texture);
+    exchangeCharts(points, graph, *exemplar(), texelWorld(), only, {colour, weight}, sweeps, texture);
   };
-  replacePieces(points, graph, *exemplar_, wide_[pieceLevel_], texelWorld_, pieces_, region, wear, texture);
+  replacePieces(points, graph, *exemplar(), wide_[pieceLevel_], texelWorld(), pieces_, region, wear, texture);
   exchange(region, exchangeSweeps);
-  const std::vector<std::uint8_t> band = seamBand(points, graph, texelWorld_, region, bandRings, texture);
+  const std::vector<std::uint8_t> band = seamBand(points, graph, texelWorld(), region, bandRings, texture);
   for (const NeighbourhoodSearch* search : {&wide_[0], &narrow_[0]}) {
-    WindowSet windows(points, graph, *search, *exemplar_, texelWorld_, 0.5f, band, texture.jacobian);
+    WindowSet windows(points, graph, *search, *exemplar(), texelWorld(), 0.5f, band, texture.jacobian);
     windows.matchOwnCharts(texture, goodFit);
     for (int i = 0; i < iterations_; ++i) {
       windows.matchNearest(texture, goodFit, i == 0);
