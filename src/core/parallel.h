@@ -4,6 +4,7 @@
 /// sums are taken over fixed blocks in a fixed order.
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -50,6 +51,19 @@ void parallelBlocks(std::size_t count, std::size_t block, const Body& body) {
   parallelFor((count + block - 1) / block, 1,
               [&](std::size_t b) { body(b * block, std::min(count, (b + 1) * block)); });
 }
+
+/// One object of scratch memory for each thread that asks, made by `make`; results must not depend on what it was used for
+/// before.
+template <class Scratch>
+class PerThread {
+ public:
+  template <class Make>
+  explicit PerThread(const Make& make) : objects_(make) {}
+  Scratch& local() { return objects_.local(); }
+
+ private:
+  tbb::enumerable_thread_specific<Scratch> objects_;
+};
 
 /// Sum of term(i) over [0, count), in double, in an order that does not depend on the threads.
 template <class Term>

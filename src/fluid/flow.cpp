@@ -96,6 +96,16 @@ bool Flow::forwardWithAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes) cons
   return true;
 }
 
+void Flow::carryAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes, float probeWorld) const {
+  if (forwardWithAxes(pWorld, axes)) return;
+  const Vec3f place = forward(pWorld);
+  for (int k = 0; k < 2; ++k) {
+    const Vec3f end = pWorld + probeWorld * axes.col(k), carried = forward(end);
+    if (place != pWorld || carried != end) axes.col(k) = (carried - place) / probeWorld;
+  }
+  pWorld = place;
+}
+
 Vec3f Flow::carry(const Vec3f& pWorld, float startTime, float direction) const {
   Vec3f k1 = Vec3f::Zero(), kEnd = Vec3f::Zero();
   if (!velocities(pWorld, startTime, k1, startTime + direction, kEnd)) return pWorld;

@@ -48,9 +48,13 @@ void TextureTimeline::step() {
   onStep_(next);
   const auto from = frames_.get(current_), to = frames_.get(next);
   // Read what the step after this one needs while this one computes.
-  frames_.keepOnly(current_ - 1, next + 2);
-  frames_.prefetch(next + 1);
-  method_->advance(*from, *to);
+  const int last = next + method_->lookAhead();
+  frames_.keepOnly(current_ - 1, last + 2);
+  std::vector<std::shared_ptr<const FluidFrame>> ahead;
+  for (int f = next + 1; f <= last; ++f)
+    if (auto frame = frames_.get(f)) ahead.push_back(std::move(frame));
+  frames_.prefetch(last + 1);
+  method_->advance(*from, *to, ahead);
   current_ = next;
   save();
 }

@@ -18,6 +18,11 @@ class ExemplarUsage {
     ++shown_[bin(st)];
     ++total_;
   }
+  /// Takes one back.
+  void remove(const Vec2f& st) {
+    --shown_[bin(st)];
+    --total_;
+  }
   /// 0 where a place is shown at most once, or as often as the mean; 1 where it is shown twice as often as that, and so on;
   /// of bins of 16 texels. Safe to call concurrently while nobody adds.
   float excess(const Vec2f& st) const;

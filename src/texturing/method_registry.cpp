@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "texturing/particles_method.h"
+#include "texturing/quilt_method.h"
 #include "texturing/synthesis_method.h"
 #include "texturing/texture_method.h"
 
@@ -23,6 +24,7 @@ const std::vector<Entry>& registry() {
       {{"particles", "texture coordinates ride on particles, 64 nearest interpolated (Rasmussen 2004): distorts"},
        makeParticlesMethod},
       {{"synthesis", "surface texture optimisation on advected texture particles (Kwatra 2007)"}, makeSynthesisMethod},
+      {{"quilt", "ours: texture follows the flow strictly, worn pieces are quilted anew along least-error cuts"}, makeQuiltMethod},
   };
   return entries;
 }

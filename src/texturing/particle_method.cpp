@@ -14,7 +14,7 @@ void ParticleMethod::start(const FluidFrame& first) {
   publish(std::move(particles));
 }
 
-void ParticleMethod::advance(const FluidFrame& from, const FluidFrame& to) {
+void ParticleMethod::advance(const FluidFrame& from, const FluidFrame& to, FramesAhead ahead) {
   checkParticleCount(to, texelWorld_);
   TextureParticles particles = *particles_;
   if (particles.size() == 0) {
@@ -32,7 +32,7 @@ void ParticleMethod::advance(const FluidFrame& from, const FluidFrame& to) {
   }
   {
     const PhaseTimer timer(times_, "synthesis");
-    retexture(to, fates, particles);
+    retexture(to, ahead, fates, particles);
   }
   publish(std::move(particles));
 }

@@ -14,7 +14,7 @@ namespace ebru {
 class ParticleMethod : public TextureMethod {
  public:
   void start(const FluidFrame& first) final;
-  void advance(const FluidFrame& from, const FluidFrame& to) final;
+  void advance(const FluidFrame& from, const FluidFrame& to, FramesAhead ahead = {}) final;
   std::shared_ptr<const TextureField> field() const final { return field_; }
   void save(StateWriter& writer) const final { particles_->save(writer); }
   void load(const StateReader& reader) final;
@@ -27,7 +27,7 @@ class ParticleMethod : public TextureMethod {
   /// Takes the particles from one frame to the next.
   virtual std::vector<ParticleFate> carry(const FluidFrame& from, const FluidFrame& to, TextureParticles& particles) const;
   /// Mends the texture of carried particles.
-  virtual void retexture(const FluidFrame& /*frame*/, const std::vector<ParticleFate>& /*fates*/,
+  virtual void retexture(const FluidFrame& /*frame*/, FramesAhead /*ahead*/, const std::vector<ParticleFate>& /*fates*/,
                          TextureParticles& /*particles*/) const {}
   /// What a ray sees of particles.
   virtual std::shared_ptr<const TextureField> makeField(std::shared_ptr<const TextureParticles> particles) const = 0;

@@ -6,68 +6,24 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "surface/orientation_field.h"
+#include "texturing/chart_links.h"
 
 namespace ebru {
 namespace {
 
 /// Of points that change at once, on what the others were before; at random, so that few of them are neighbours.
 constexpr int groups = 4;
-/// Charts that predict the same place within this many texels are one piece.
-constexpr float samePieceTexels = 0.35f;
 /// A new chart must be better by this share, or it is not worth a change.
 constexpr float margin = 0.02f;
 
 /// What every link across a seam costs, however alike its sides, in squared contrasts: seams should be short.
 constexpr float linkPenalty = 0.1f;
 
-struct Chart {
-  Vec2f st;
-  Mat2f jacobian;
-};
-
-class Charts {
- public:
-  Charts(const OrientedPoints& points, const SurfaceTexture& texture, float texelWorld)
-      : points_(points), texture_(texture), inverseTexel_(1.0f / texelWorld) {}
-
-  /// The chart of point j, continued to point i, in the frame of i.
-  Chart continued(std::size_t j, std::size_t i) const {
-    const Vec3f &o = points_.orientations[j], &n = points_.normals[j];
-    const Vec3f second = secondAxis(n, o);
-    const Vec3f along = transportTangent(points_.orientations[i], points_.normals[i], n);
-    Mat2f turn;
-    const float c = along.dot(o), s = along.dot(second);
-    turn << c, -s, s, c;
-    return {placeAt(j, i), texture_.jacobian[j] * turn};
-  }
-
-  /// What the chart of point j says of the place of point i.
-  Vec2f placeAt(std::size_t j, std::size_t i) const {
-    return texture_.st[j] + texture_.jacobian[j] * local(j, i);
-  }
-
-  bool onSeam(std::size_t i, std::span<const std::uint32_t> ring) const {
-    return std::any_of(ring.begin(), ring.end(), [&](std::uint32_t j) {
-      return !samePiece(placeAt(j, i), texture_.st[i]);
-    });
-  }
-  static bool samePiece(const Vec2f& a, const Vec2f& b) {
-    return (a - b).squaredNorm() <= samePieceTexels * samePieceTexels;
-  }
-
-  /// Point i in the frame of point j, texels.
-  Vec2f local(std::size_t j, std::size_t i) const {
-    const Vec3f d = (points_.positions[i] - points_.positions[j]) * inverseTexel_;
-    const Vec3f& o = points_.orientations[j];
-    return {d.dot(o), d.dot(secondAxis(points_.normals[j], o))};
-  }
-
- private:
-  const OrientedPoints& points_;
-  const SurfaceTexture& texture_;
-  float inverseTexel_;
-};
+bool onSeam(const ChartLinks& charts, const SurfaceTexture& texture, std::size_t i, std::span<const std::uint32_t> ring) {
+  return std::any_of(ring.begin(), ring.end(), [&](std::uint32_t j) {
+    return !ChartLinks::samePiece(charts.placeAt(j, i), texture.st[i]);
+  });
+}
 
 float squaredDifference(const Texel& a, const Texel& b) { return (a - b).square().sum(); }
 
@@ -87,7 +43,7 @@ class Exchange {
   Chart best(std::uint32_t i) const {
     Chart best{texture_.st[i], texture_.jacobian[i]};
     const auto ring = graph_.of(i);
-    if (!charts_.onSeam(i, ring)) return best;
+    if (!onSeam(charts_, texture_, i, ring)) return best;
     float least = (1.0f - margin) * cost(i, best);
     std::array<Vec2f, maxTried> tried;  // places the point was offered: neighbours of one piece offer the same
     std::size_t count = 0;
@@ -95,7 +51,7 @@ class Exchange {
     for (const std::uint32_t j : ring) {
       const Chart chart = charts_.continued(j, i);
       const auto end = tried.begin() + static_cast<std::ptrdiff_t>(count);
-      if (std::any_of(tried.begin(), end, [&](const Vec2f& st) { return Charts::samePiece(st, chart.st); })) continue;
+      if (std::any_of(tried.begin(), end, [&](const Vec2f& st) { return ChartLinks::samePiece(st, chart.st); })) continue;
       if (count < maxTried) tried[count++] = chart.st;
       const float c = cost(i, chart);
       if (c >= least) continue;
@@ -114,7 +70,7 @@ class Exchange {
     float sum = 0.0f;
     for (const std::uint32_t j : ring) {
       const Vec2f theirs = charts_.placeAt(j, i);
-      if (Charts::samePiece(theirs, chart.st)) continue;
+      if (ChartLinks::samePiece(theirs, chart.st)) continue;
       const Vec2f there = chart.st + chart.jacobian * charts_.local(i, j);
       sum += 2.0f * seamPenalty_;
       sum += squaredDifference(here, exemplar_.sample(0, theirs));
@@ -127,7 +83,7 @@ class Exchange {
   }
 
   float seamPenalty_;  ///< per end of a link
-  Charts charts_;
+  ChartLinks charts_;
   const PointGraph& graph_;
   const Exemplar& exemplar_;
   const TransportedTexture& transported_;
@@ -167,10 +123,10 @@ void exchangeCharts(const OrientedPoints& points, const PointGraph& graph, const
 
 std::vector<std::uint8_t> seamBand(const OrientedPoints& points, const PointGraph& graph, float texelWorld,
                                    std::span<const std::uint8_t> only, int rings, const SurfaceTexture& texture) {
-  const Charts charts(points, texture, texelWorld);
+  const ChartLinks charts(points, texture, texelWorld);
   std::vector<std::uint8_t> band(only.size());
   parallelFor(band.size(), 512, [&](std::size_t i) {
-    band[i] = only[i] && charts.onSeam(i, graph.of(static_cast<std::uint32_t>(i)));
+    band[i] = only[i] && onSeam(charts, texture, i, graph.of(static_cast<std::uint32_t>(i)));
   });
   std::vector<std::uint8_t> next;
   for (int r = 0; r < rings; ++r) {

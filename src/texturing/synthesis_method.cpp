@@ -105,7 +105,7 @@ class SynthesisMethod : public ParticleMethod {
   }
   void startFrom(const FluidFrame& first, TextureParticles& particles) override;
   std::vector<ParticleFate> carry(const FluidFrame& from, const FluidFrame& to, TextureParticles& particles) const override;
-  void retexture(const FluidFrame& frame, const std::vector<ParticleFate>& fates, TextureParticles& particles) const override;
+  void retexture(const FluidFrame& frame, FramesAhead ahead, const std::vector<ParticleFate>& fates, TextureParticles& particles) const override;
   std::shared_ptr<const TextureField> makeField(std::shared_ptr<const TextureParticles> particles) const override {
     return std::make_shared<ChartField>(std::move(particles), exemplar(), texelWorld());
   }
@@ -221,7 +221,7 @@ std::vector<ParticleFate> SynthesisMethod::carry(const FluidFrame& from, const F
                       : carryParticles(from, to, texelWorld(), particles);
 }
 
-void SynthesisMethod::retexture(const FluidFrame& /*frame*/, const std::vector<ParticleFate>& fates,
+void SynthesisMethod::retexture(const FluidFrame& /*frame*/, FramesAhead /*ahead*/, const std::vector<ParticleFate>& fates,
                                 TextureParticles& particles) const {
   advanceFades(particles);
   LevelView view = firstPoints(particles, particles.size());

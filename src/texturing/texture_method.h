@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 
 namespace ebru {
 
+using FramesAhead = std::span<const std::shared_ptr<const FluidFrame>>;
+
 /// One algorithm that textures a fluid, frame after frame. Owns its state. Deterministic for any number of threads.
 class TextureMethod {
  public:
@@ -19,7 +22,10 @@ class TextureMethod {
 
   virtual void start(const FluidFrame& first) = 0;
   /// `from` is the frame of the last start or advance, `to` the next one.
-  virtual void advance(const FluidFrame& from, const FluidFrame& to) = 0;
+  /// @param ahead  the frames after `to`, as many as the cache has of `lookAhead`
+  virtual void advance(const FluidFrame& from, const FluidFrame& to, FramesAhead ahead = {}) = 0;
+  /// How many frames after `to` the method wants to know.
+  virtual int lookAhead() const { return 0; }
 
   /// Of the newest frame; stays valid and unchanged after later advances while the pointer is held.
   virtual std::shared_ptr<const TextureField> field() const = 0;

@@ -43,9 +43,21 @@ OptionFields fields(TextureOptions& o) {
        .target = &o.feature_size,
        .unit = "texel",
        .help = "diameter of the exemplar's features, which pieces of texture are made larger than; 0: measured by its autocorrelation "
-               "(`ebru inspect` prints it; method synthesis)",
+               "(`ebru inspect` prints it; methods synthesis and quilt)",
        .lower = 0.0,
        .upper = 1e4},
+      {.key = "stretch_bound",
+       .target = &o.stretch_bound,
+       .help = "texture stretched more is replaced; more where the flow shears so fast that new texture would not last: near 1 it "
+               "looks like the exemplar and changes often, the larger the more it rides on the flow (method quilt)",
+       .lower = 1.1,
+       .upper = 100.0},
+      {.key = "look_ahead",
+       .target = &o.look_ahead,
+       .unit = "frame",
+       .help = "frames of the cache that are looked at in advance, so that new texture is laid to last (method quilt)",
+       .lower = 0,
+       .upper = 32},
       {.key = "transport",
        .target = &o.transport,
        .help = "particles: the texture rides on particles; grid: every frame has points of its own, which back-tracked grid "

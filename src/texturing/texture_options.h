@@ -22,6 +22,8 @@ struct TextureOptions {
   double weight_emission = 1.0;
   double texel_size = 0.005;
   double feature_size = 0.0;
+  double stretch_bound = 1.7;
+  int look_ahead = 8;
   std::string transport = "particles";
   int iterations = 2;
 };

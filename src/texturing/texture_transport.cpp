@@ -35,15 +35,7 @@ CarriedFrame carryFrame(const Flow& flow, const FluidFrame& to, float texelWorld
   Eigen::Matrix<float, 3, 2> axes;
   axes << o, secondAxis(particles.normal[i], o);
   frame.axes = axes;
-  if (!flow.forwardWithAxes(frame.place, frame.axes)) {
-    // The frames know no gradients, or not everywhere: points a little way along the axes are carried, too.
-    const float probe = probeTexels * texelWorld;
-    frame.place = flow.forward(x);
-    for (int k = 0; k < 2; ++k) {
-      const Vec3f end = x + probe * axes.col(k), carried = flow.forward(end);
-      if (frame.place != x || carried != end) frame.axes.col(k) = (carried - frame.place) / probe;
-    }
-  }
+  flow.carryAxes(frame.place, frame.axes, probeTexels * texelWorld);
   Eigen::Matrix<float, 1, 1> distance;
   // The axes, too: at the centre of an eddy the place rests and the frame turns.
   frame.rests = frame.place == x && frame.axes == axes && to.signedDistance.sample(x, distance) &&

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "texturing/texture_method.h"
+
+namespace ebru {
+
+/// Texture particles that follow the flow strictly; where their texture is worn, whole pieces of the exemplar are quilted in,
+/// laid for what the flow will do to them.
+std::unique_ptr<TextureMethod> makeQuiltMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times);
+
+}  // namespace ebru
