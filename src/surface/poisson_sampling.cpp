@@ -121,4 +121,19 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
   return findGaps(mesh, positions, normals, grid, gapWorld, spacingWorld, seed);
 }
 
+std::vector<std::uint32_t> pointsApart(std::span<const Vec3f> positions, std::span<const std::uint32_t> order,
+                                       float apartWorld) {
+  std::vector<std::uint32_t> taken;
+  CellGrid grid(apartWorld, 256);
+  for (const std::uint32_t i : order) {
+    const bool near = grid.anyNear(positions[i], apartWorld, [&](std::uint32_t j) {
+      return (positions[j] - positions[i]).squaredNorm() < apartWorld * apartWorld;
+    });
+    if (near) continue;
+    grid.insert(i, positions[i]);
+    taken.push_back(i);
+  }
+  return taken;
+}
+
 }  // namespace ebru

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/vec.h"
@@ -36,5 +37,9 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
                         std::uint64_t seed);
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
                         const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed);
+
+/// Of `order`, each point that is no nearer than `apartWorld` to one taken before it, in that order.
+std::vector<std::uint32_t> pointsApart(std::span<const Vec3f> positions, std::span<const std::uint32_t> order,
+                                       float apartWorld);
 
 }  // namespace ebru

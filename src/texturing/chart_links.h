@@ -14,7 +14,7 @@ struct Chart {
   Mat2f jacobian;
 };
 
-/// The charts of neighbouring points against each other. Refers to what it was made from.
+/// The charts of neighbouring points against each other. Refers to the arrays.
 class ChartLinks {
  public:
   ChartLinks(const OrientedPoints& points, const SurfaceTexture& texture, float texelWorld)
@@ -50,8 +50,8 @@ class ChartLinks {
   }
 
  private:
-  const OrientedPoints& points_;
-  const SurfaceTexture& texture_;
+  OrientedPoints points_;
+  SurfaceTexture texture_;
   float inverseTexel_;
 };
 

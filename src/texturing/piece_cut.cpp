@@ -11,7 +11,6 @@ constexpr float anySeam = 0.2f;       ///< cost of a texel of seam, however alik
 constexpr float linksPerTexel = 3.3f; ///< that cross a texel of seam
 constexpr float changeWeight = 0.1f;
 constexpr float overdue = 2.0f;
-constexpr float never = 1e4f;
 constexpr float trusted = 1.25f, distrusted = 2.2f, leastTrust = 0.05f;
 
 }  // namespace
@@ -117,9 +116,9 @@ float PieceCut::cut(const Placement& placement, std::vector<std::uint8_t>& takes
     switch (kinds_[k]) {
       case Kind::free: nodes_[k] = {costs_[k].keep, costs_[k].change * squares_[k]}; break;
       case Kind::core:
-      case Kind::empty: nodes_[k] = {never, 0.0f}; break;
-      case Kind::kept: nodes_[k] = {0.0f, never}; break;
-      case Kind::absent: nodes_[k] = {}; break;
+      case Kind::empty: nodes_[k] = {forbidden, 0.0f}; break;
+      case Kind::kept: nodes_[k] = {0.0f, forbidden}; break;
+      case Kind::absent: nodes_[k] = {0.0f, forbidden}; break;
     }
   }
   for (CutLink& l : links_) {
@@ -131,7 +130,6 @@ float PieceCut::cut(const Placement& placement, std::vector<std::uint8_t>& takes
   takes = minimumCut(nodes_, links_);
   float cost = 0.0f;
   for (std::size_t k = 0; k < takes.size(); ++k) {
-    if (kinds_[k] == Kind::absent) takes[k] = 0;
     cost += takes[k] ? nodes_[k].change : nodes_[k].keep;
   }
   for (const CutLink& l : links_)

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "surface/cell_grid.h"
+#include "surface/poisson_sampling.h"
 #include "texturing/exemplar_usage.h"
 #include "texturing/rigid_fit.h"
 #include "texturing/texture_particles.h"
@@ -127,22 +127,6 @@ struct Piece {
   std::vector<NeighbourhoodPoint> members;
 };
 
-/// Of `order`, each point that is no nearer than `apartWorld` to one taken before it.
-std::vector<std::uint32_t> centresApart(const OrientedPoints& points, std::span<const std::uint32_t> order,
-                                        float apartWorld) {
-  std::vector<std::uint32_t> centres;
-  CellGrid grid(apartWorld, 256);
-  for (const std::uint32_t i : order) {
-    const bool near = grid.anyNear(points.positions[i], apartWorld, [&](std::uint32_t j) {
-      return (points.positions[j] - points.positions[i]).squaredNorm() < apartWorld * apartWorld;
-    });
-    if (near) continue;
-    grid.insert(i, points.positions[i]);
-    centres.push_back(i);
-  }
-  return centres;
-}
-
 }  // namespace
 
 void replacePieces(const OrientedPoints& points, const PointGraph& graph, const Exemplar& exemplar,
@@ -162,7 +146,7 @@ void replacePieces(const OrientedPoints& points, const PointGraph& graph, const 
     return wear[a] != wear[b] ? wear[a] > wear[b] : a < b;
   });
   while (!order.empty()) {
-    const std::vector<std::uint32_t> centres = centresApart(points, order, apart);
+    const std::vector<std::uint32_t> centres = pointsApart(points.positions, order, apart);
     std::vector<Piece> pieces(centres.size());
     constexpr std::size_t block = 4;  // a builder's scratch is as long as the points
     parallelBlocks(centres.size(), block, [&](std::size_t begin, std::size_t end) {

@@ -11,7 +11,7 @@ namespace {
 constexpr int angles = 32, rings = 12, radii = rings + 1;
 constexpr int mostStep = 2;  ///< rings between two angles
 constexpr float arc = 2.0f * std::numbers::pi_v<float> / angles;
-constexpr float forbidden = 1e9f;
+constexpr float never = 1e9f;
 
 std::size_t cellAt(int angle, int ring) { return static_cast<std::size_t>(angle * rings + ring); }
 std::size_t totalAt(int angle, int changed) { return static_cast<std::size_t>(angle * radii + changed); }
@@ -74,7 +74,7 @@ void PolarCut::sumAngles() {
       const float outer = j < rings ? difference_[cellAt(a, j)] : inner;
       float seam = 0.0f;
       if (outer >= 0.0f) seam = 0.5f * seam_ * (outer + (inner >= 0.0f ? inner : outer)) + link_;
-      total_[totalAt(a, j)] = j < leastRings_ ? forbidden : keep + change + arc * ringWidth_ * static_cast<float>(j) * seam;
+      total_[totalAt(a, j)] = j < leastRings_ ? never : keep + change + arc * ringWidth_ * static_cast<float>(j) * seam;
       if (j == rings) break;
       const Cell& cell = cells_[cellAt(a, j)];
       keep -= cell.keep;
@@ -98,7 +98,7 @@ float PolarCut::sweep(int fixed, int& first) const {
   std::array<int, radii> origin, nextOrigin;
   for (int j = 0; j < radii; ++j) {
     const auto k = static_cast<std::size_t>(j);
-    now[k] = fixed >= 0 && j != fixed ? forbidden : total_[totalAt(0, j)];
+    now[k] = fixed >= 0 && j != fixed ? never : total_[totalAt(0, j)];
     origin[k] = j;
   }
   for (int a = 1; a <= angles; ++a) {

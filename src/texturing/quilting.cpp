@@ -6,8 +6,8 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
-#include "surface/cell_grid.h"
 #include "surface/orientation_field.h"
+#include "surface/poisson_sampling.h"
 #include "texturing/exemplar_usage.h"
 #include "texturing/piece_cut.h"
 #include "texturing/texture_particles.h"
@@ -103,7 +103,8 @@ class Quilting {
 
   /// Lays one round of pieces: of `order`, each point that is far enough from those before it is a centre.
   void layRound(std::span<const std::uint32_t> order) {
-    const std::vector<std::uint32_t> centres = centresApart(order);
+    const float apartWorld = 2.0f * shape_.radius * surface_.texelWorld;
+    const std::vector<std::uint32_t> centres = pointsApart(surface_.points.positions, order, apartWorld);
     const std::vector<float> penalty = search_.penalties(usage_, overuseSearched * variance_);
     std::vector<ChosenPiece> pieces(centres.size());
     parallelFor(centres.size(), 1, [&](std::size_t k) { choose(centres[k], penalty, workplaces_.local(), pieces[k]); });
@@ -113,22 +114,6 @@ class Quilting {
   }
 
  private:
-  std::vector<std::uint32_t> centresApart(std::span<const std::uint32_t> order) const {
-    const float apartWorld = 2.0f * shape_.radius * surface_.texelWorld;
-    const std::span<const Vec3f> positions = surface_.points.positions;
-    std::vector<std::uint32_t> centres;
-    CellGrid grid(apartWorld, 256);
-    for (const std::uint32_t i : order) {
-      const bool near = grid.anyNear(positions[i], apartWorld, [&](std::uint32_t j) {
-        return (positions[j] - positions[i]).squaredNorm() < apartWorld * apartWorld;
-      });
-      if (near) continue;
-      grid.insert(i, positions[i]);
-      centres.push_back(i);
-    }
-    return centres;
-  }
-
   void choose(std::uint32_t centre, std::span<const float> penalty, Workplace& work, ChosenPiece& chosen) const {
     Piece& piece = chosen.piece;
     const Mat2f axes = nearestRotation(surface_.texture.jacobian[centre]);

@@ -76,7 +76,7 @@ Mat2f StretchForecast::layingStretch(const Place& place, float most, float bound
       ++frames;
     }
     const float cost = (1.0f + stretchWeight * sum) / static_cast<float>(std::max(1, frames));
-    if (cost >= least) continue;
+    if (cost > 0.9999f * least) continue;  // not for rounding errors
     least = cost;
     best = laid;
   }

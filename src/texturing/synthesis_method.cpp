@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "exemplar/feature_size.h"
 #include "surface/flat_frames.h"
 #include "surface/orientation_field.h"
 #include "surface/point_graph.h"
@@ -12,13 +13,11 @@
 #include "surface/poisson_sampling.h"
 #include "texturing/chart_fade.h"
 #include "texturing/chart_field.h"
-#include "exemplar/feature_size.h"
 #include "texturing/grid_transport.h"
 #include "texturing/particle_method.h"
 #include "texturing/piece_replacement.h"
 #include "texturing/seam_exchange.h"
 #include "texturing/surface_optimisation.h"
-#include "texturing/texture_transport.h"
 #include "texturing/texture_wear.h"
 
 namespace ebru {

@@ -65,10 +65,10 @@ std::unique_ptr<TextureMethod> method(const char* name) {
   return makeTextureMethod(options, 1, nullptr);
 }
 
-std::unique_ptr<TextureMethod> synthesis(const char* exemplarName, double particleCount) {
+std::unique_ptr<TextureMethod> methodWith(const char* name, double particleCount) {
   TextureOptions options;
-  options.method = "synthesis";
-  options.exemplar = {(scenes() / "exemplars" / exemplarName).string()};
+  options.method = name;
+  options.exemplar = {(scenes() / "exemplars" / "leaf_litter.png").string()};
   options.texel_size = std::sqrt(0.7 * surfaceArea(from().mesh) / particleCount) / static_cast<double>(poissonSpacingTexels);
   return makeTextureMethod(options, 1, nullptr);
 }

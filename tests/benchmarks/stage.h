@@ -27,8 +27,8 @@ const FluidFrame& frame(int number);
 std::shared_ptr<const Exemplar> exemplar();
 /// With the shot's exemplar and texel size.
 std::unique_ptr<TextureMethod> method(const char* name);
-/// Synthesis of a file of scenes/exemplars with about `particleCount` particles on frame 12.
-std::unique_ptr<TextureMethod> synthesis(const char* exemplarName, double particleCount);
+/// With about `particleCount` particles on frame 12 and the exemplar leaf_litter.
+std::unique_ptr<TextureMethod> methodWith(const char* name, double particleCount);
 /// Particles of `particles` after its start on frame 12.
 const TextureParticles& particles();
 /// Field of a method after its start on frame 12.

@@ -75,9 +75,16 @@ void SynthesisAdvance(benchmark::State& state) {
   meter.report(state, count);
 }
 
-/// Transport and synthesis by number of particles, in thousands: the mean of three frames that have worn texture,
+/// As many frames of the shot as there are of those wanted.
+std::vector<std::shared_ptr<const FluidFrame>> framesAfter(int f, int count) {
+  std::vector<std::shared_ptr<const FluidFrame>> frames;
+  for (int k = f + 1; k <= std::min(f + count, 28); ++k) frames.emplace_back(&frame(k), [](const FluidFrame*) {});
+  return frames;
+}
+
+/// Transport and new texture by number of particles, in thousands: the mean of three frames that have worn texture,
 /// after two that make some; a 256 x 256 exemplar.
-void SynthesisFrames(benchmark::State& state) {
+void LaterFrames(benchmark::State& state, const char* name) {
   constexpr int first = 12, begin = 14, end = 17;
   const double count = 1e3 * static_cast<double>(state.range(0));
   double area = 0.0;  // of the frames that are timed, in areas of the first
@@ -85,24 +92,25 @@ void SynthesisFrames(benchmark::State& state) {
     if (const double a = surfaceArea(frame(f).mesh) / surfaceArea(frame(first).mesh); f > begin) area += a / (end - begin);
   for (auto _ : state) {
     Meter meter;
-    const std::unique_ptr<TextureMethod> m = synthesis("leaf_litter.png", count);
+    const std::unique_ptr<TextureMethod> m = methodWith(name, count);
     meter.pause();
     m->start(frame(first));
     for (int f = first; f < end; ++f) {
-      if (f == begin) meter.resume();
-      m->advance(frame(f), frame(f + 1));
+      const std::vector<std::shared_ptr<const FluidFrame>> ahead = framesAfter(f + 1, m->lookAhead());
+      if (f >= begin) meter.resume();
+      m->advance(frame(f), frame(f + 1), ahead);
+      if (f >= begin) meter.pause();
     }
-    meter.pause();
     meter.report(state, area * count, end - begin);
   }
 }
 
 /// The first frame, by the same numbers.
-void SynthesisFirstFrame(benchmark::State& state) {
+void FirstFrame(benchmark::State& state, const char* name) {
   const double count = 1e3 * static_cast<double>(state.range(0));
   frame(12);
   for (auto _ : state) {
-    const std::unique_ptr<TextureMethod> m = synthesis("leaf_litter.png", count);
+    const std::unique_ptr<TextureMethod> m = methodWith(name, count);
     Meter meter;
     m->start(frame(12));
     meter.pause();
@@ -115,8 +123,10 @@ void particleCounts(benchmark::internal::Benchmark* b) {
   b->Iterations(1)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
 
-BENCHMARK(SynthesisFrames)->Apply(particleCounts);
-BENCHMARK(SynthesisFirstFrame)->Apply(particleCounts);
+BENCHMARK_CAPTURE(LaterFrames, synthesis, "synthesis")->Apply(particleCounts);
+BENCHMARK_CAPTURE(LaterFrames, quilt, "quilt")->Apply(particleCounts);
+BENCHMARK_CAPTURE(FirstFrame, synthesis, "synthesis")->Apply(particleCounts);
+BENCHMARK_CAPTURE(FirstFrame, quilt, "quilt")->Apply(particleCounts);
 BENCHMARK(CarryParticles)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(KeepSpacing)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 BENCHMARK(SynthesisPrepareExemplar)

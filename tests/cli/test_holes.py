@@ -10,7 +10,7 @@ SCENE = ROOT / "scenes/dam_break.toml"
 
 
 def test_default_shot_has_no_holes(folder):
-    for method in ("particles", "synthesis"):
+    for method in ("particles", "synthesis", "quilt"):
         out = folder / method
         render(SCENE, out, "--method", method, "--frames", "1,10,19,28", "--size", "160x90", "--spp", 1,
                "--set", "texture.texel_size=0.012")

@@ -2,7 +2,7 @@
 
 from support import *
 
-METHODS = ["particles", "synthesis"]
+METHODS = ["particles", "synthesis", "quilt"]
 
 
 def test_one_run_equals_a_run_and_its_continuation(folder):
