@@ -27,7 +27,7 @@ class Flow {
   /// than zero.
   /// @return false, both arguments as they were, where a frame does not know the gradient of its velocity
   bool forwardWithAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes) const;
-  /// The same, where a frame does not know the gradient by carrying points `probeWorld` away along the axes.
+  /// The same; where a frame does not know the gradient, from points carried `probeWorld` away along the axes.
   void carryAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes, float probeWorld) const;
   /// The same as `forward` from time 1 back to 0.
   Vec3f backward(const Vec3f& pWorld) const;

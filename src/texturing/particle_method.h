@@ -26,7 +26,8 @@ class ParticleMethod : public TextureMethod {
   virtual void startFrom(const FluidFrame& first, TextureParticles& particles) = 0;
   /// Takes the particles from one frame to the next.
   virtual std::vector<ParticleFate> carry(const FluidFrame& from, const FluidFrame& to, TextureParticles& particles) const;
-  /// Mends the texture of carried particles.
+  /// Mends the texture of particles that have been carried to `frame`.
+  /// @param ahead  as of `advance`
   virtual void retexture(const FluidFrame& /*frame*/, FramesAhead /*ahead*/, const std::vector<ParticleFate>& /*fates*/,
                          TextureParticles& /*particles*/) const {}
   /// What a ray sees of particles.

@@ -31,7 +31,7 @@ class PieceCut {
  public:
   explicit PieceCut(std::size_t pointCount) : slot_(pointCount), stamp_(pointCount, 0) {}
 
-  /// Everything that does not depend on what the piece will show. Both arguments have to live until the next call.
+  /// Everything that does not depend on what the piece will show. The arguments have to live until the next call.
   void prepare(const QuiltSurface& surface, const Exemplar& exemplar, const Piece& piece);
 
   /// About what `cut` would cost.

@@ -13,6 +13,7 @@
 
 namespace ebru {
 
+/// Frames of the cache that follow, in order.
 using FramesAhead = std::span<const std::shared_ptr<const FluidFrame>>;
 
 /// One algorithm that textures a fluid, frame after frame. Owns its state. Deterministic for any number of threads.
