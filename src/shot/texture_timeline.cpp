@@ -50,10 +50,10 @@ void TextureTimeline::step() {
   // Read what the step after this one needs while this one computes.
   const int last = next + method_->lookAhead();
   frames_.keepOnly(current_ - 1, last + 2);
+  for (int f = next + 1; f <= last + 1; ++f) frames_.prefetch(f);
   std::vector<std::shared_ptr<const FluidFrame>> ahead;
   for (int f = next + 1; f <= last; ++f)
     if (auto frame = frames_.get(f)) ahead.push_back(std::move(frame));
-  frames_.prefetch(last + 1);
   method_->advance(*from, *to, ahead);
   current_ = next;
   save();

@@ -11,13 +11,8 @@ constexpr float anySeam = 0.2f;       ///< cost of a texel of seam, however alik
 constexpr float linksPerTexel = 3.3f; ///< that cross a texel of seam
 constexpr float changeWeight = 0.1f;
 constexpr float overdue = 2.0f;
-constexpr float trusted = 1.25f, distrusted = 2.2f, leastTrust = 0.05f;
 
 }  // namespace
-
-float trustInTexture(float wear) {
-  return wear >= noTexture ? 0.0f : std::clamp((distrusted - wear) / (distrusted - trusted), leastTrust, 1.0f);
-}
 
 void PieceCut::prepare(const QuiltSurface& surface, const Exemplar& exemplar, const Piece& piece) {
   exemplar_ = &exemplar;

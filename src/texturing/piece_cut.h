@@ -69,7 +69,4 @@ class PieceCut {
   PolarCut polar_;
 };
 
-/// How much texture of this wear says about what should be there: 1 up to 1.25, little from 2.2 on, nothing where there is none.
-float trustInTexture(float wear);
-
 }  // namespace ebru

@@ -8,6 +8,7 @@
 #include "texturing/exemplar_usage.h"
 #include "texturing/rigid_fit.h"
 #include "texturing/texture_particles.h"
+#include "texturing/texture_wear.h"
 #include "texturing/window_raster.h"
 
 namespace ebru {
@@ -22,12 +23,6 @@ constexpr float largestRadius = 0.4f;  ///< of a piece, against the exemplar's s
 /// Costs in squared contrasts: of a window from elsewhere against a chart that is there already, and of a place of the exemplar
 /// that is shown more than others, per ExemplarUsage::excess.
 constexpr float foreign = 0.1f, overuse = 1.0f;
-/// What is more worn says less about what should be there: full weight up to the first, least weight from the second on.
-constexpr float trusted = 1.25f, distrusted = 2.2f, leastWeight = 0.05f;
-
-float trust(float wear) {
-  return std::clamp((distrusted - wear) / (distrusted - trusted), leastWeight, 1.0f);
-}
 
 struct Candidate {
   Placement placement;
@@ -86,7 +81,7 @@ class PieceChoice {
     const std::size_t stride = std::max<std::size_t>(1, members.size() / sampledMembers);
     for (std::size_t k = 0; k < members.size(); k += stride) {
       const NeighbourhoodPoint& m = members[k];
-      const float weight = remaining[m.index] ? trust(wear[m.index]) : 1.0f;
+      const float weight = remaining[m.index] ? trustInTexture(wear[m.index]) : 1.0f;
       samples_.push_back({m.displacement, texture.colour[m.index], weight});
       meanWeight_ += weight;
     }

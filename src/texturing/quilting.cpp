@@ -142,8 +142,8 @@ class Quilting {
     const std::size_t stride = std::max<std::size_t>(1, work.stretched.size() / sampledMembers);
     for (std::size_t k = 0; k < work.stretched.size(); k += stride) {
       const NeighbourhoodPoint& m = work.stretched[k];
+      if (surface_.wear[m.index] >= noTexture) continue;
       float weight = surface_.laid[m.index] ? 1.0f : trustInTexture(surface_.wear[m.index]);
-      if (weight == 0.0f) continue;
       if (!surface_.laid[m.index] && piece.members[k].displacement.norm() < 0.5f * piece.radius) weight *= innerWeight;
       work.samples.push_back({m.displacement, surface_.texture.colour[m.index], weight});
     }

@@ -27,6 +27,11 @@ std::vector<float> textureWear(const TextureParticles& particles, const std::vec
   return wear;
 }
 
+float trustInTexture(float wear) {
+  constexpr float full = 1.25f, least = 2.2f, leastTrust = 0.05f;
+  return std::clamp((least - wear) / (least - full), leastTrust, 1.0f);
+}
+
 std::vector<std::uint8_t> wornRegion(const TextureParticles& particles, const std::vector<float>& wear, float reachWorld) {
   // A few of the worn points stand for all of them.
   CellGrid seeds(reachWorld, 1024);

@@ -15,6 +15,9 @@ std::vector<float> textureWear(const TextureParticles& particles, const std::vec
                                const Exemplar& exemplar);
 constexpr float noTexture = 1e9f;
 
+/// How much texture of this wear says about what should be there: 1 up to a wear of 1.25, 0.05 from 2.2 on.
+float trustInTexture(float wear);
+
 /// Points to synthesise anew, 1: those worn more than 1.7, and what is worn more than 1.25 within `reachWorld` of them.
 std::vector<std::uint8_t> wornRegion(const TextureParticles& particles, const std::vector<float>& wear, float reachWorld);
 
