@@ -3,9 +3,9 @@
 #include <functional>
 
 #include "core/error.h"
-#include "texturing/particles_method.h"
-#include "texturing/quilt_method.h"
-#include "texturing/synthesis_method.h"
+#include "texturing/particles/particles_method.h"
+#include "texturing/quilt/quilt_method.h"
+#include "texturing/synthesis/synthesis_method.h"
 #include "texturing/texture_method.h"
 
 namespace ebru {

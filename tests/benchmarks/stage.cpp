@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "fluid/fluid_sequence.h"
 #include "surface/poisson_sampling.h"
-#include "texturing/texture_transport.h"
+#include "texturing/particles/texture_transport.h"
 
 namespace ebru::bench {
 namespace {

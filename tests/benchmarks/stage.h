@@ -11,9 +11,9 @@
 
 #include "exemplar/exemplar.h"
 #include "fluid/fluid_frame.h"
+#include "texturing/particles/texture_particles.h"
 #include "texturing/texture_field.h"
 #include "texturing/texture_method.h"
-#include "texturing/texture_particles.h"
 
 namespace ebru::bench {
 

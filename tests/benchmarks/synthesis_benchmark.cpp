@@ -2,7 +2,7 @@
 
 #include "stage.h"
 #include "surface/poisson_sampling.h"
-#include "texturing/texture_transport.h"
+#include "texturing/particles/texture_transport.h"
 
 namespace ebru::bench {
 namespace {

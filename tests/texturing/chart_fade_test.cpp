@@ -1,9 +1,9 @@
-#include "texturing/chart_fade.h"
+#include "texturing/charts/chart_fade.h"
 
 #include <gtest/gtest.h>
 
-#include "texturing/chart_field.h"
 #include "textures.h"
+#include "texturing/charts/chart_field.h"
 
 namespace ebru {
 namespace {

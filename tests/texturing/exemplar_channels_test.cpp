@@ -4,7 +4,7 @@
 
 #include "maps.h"
 #include "textures.h"
-#include "texturing/chart_field.h"
+#include "texturing/charts/chart_field.h"
 #include "texturing/open_exemplar.h"
 
 namespace ebru {

@@ -1,4 +1,4 @@
-#include "texturing/exemplar_usage.h"
+#include "texturing/charts/exemplar_usage.h"
 
 #include <gtest/gtest.h>
 

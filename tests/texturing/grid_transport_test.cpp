@@ -1,4 +1,4 @@
-#include "texturing/grid_transport.h"
+#include "texturing/particles/grid_transport.h"
 
 #include <gtest/gtest.h>
 

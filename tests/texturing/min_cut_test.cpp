@@ -1,4 +1,4 @@
-#include "texturing/min_cut.h"
+#include "texturing/quilt/min_cut.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "texturing/piece_replacement.h"
+#include "texturing/synthesis/piece_replacement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "texturing/piece_search.h"
+#include "texturing/quilt/piece_search.h"
 
 #include <gtest/gtest.h>
 

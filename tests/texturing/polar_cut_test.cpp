@@ -1,4 +1,4 @@
-#include "texturing/polar_cut.h"
+#include "texturing/quilt/polar_cut.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "texturing/quilting.h"
+#include "texturing/quilt/quilting.h"
 
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
 #include "textured_plane.h"
-#include "texturing/chart_links.h"
-#include "texturing/texture_particles.h"
-#include "texturing/texture_wear.h"
+#include "texturing/charts/chart_links.h"
+#include "texturing/particles/texture_particles.h"
+#include "texturing/particles/texture_wear.h"
 
 namespace ebru {
 namespace {

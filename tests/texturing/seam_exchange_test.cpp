@@ -1,4 +1,4 @@
-#include "texturing/seam_exchange.h"
+#include "texturing/synthesis/seam_exchange.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "texturing/seam_residual.h"
+#include "texturing/quilt/seam_residual.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "texturing/stretch_forecast.h"
+#include "texturing/quilt/stretch_forecast.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "textures.h"
-#include "texturing/texture_particles.h"
+#include "texturing/particles/texture_particles.h"
 
 namespace ebru {
 namespace {

@@ -1,4 +1,4 @@
-#include "texturing/texture_particles.h"
+#include "texturing/particles/texture_particles.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "surface/poisson_sampling.h"
 #include "textures.h"
-#include "texturing/texture_transport.h"
+#include "texturing/particles/texture_transport.h"
 #include "zoo.h"
 
 namespace ebru {

@@ -1,4 +1,4 @@
-#include "texturing/texture_transport.h"
+#include "texturing/particles/texture_transport.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "exemplar/exemplar.h"
 #include "surface/point_graph.h"
-#include "texturing/surface_texture.h"
 #include "textures.h"
+#include "texturing/charts/surface_texture.h"
 
 namespace ebru::test {
 

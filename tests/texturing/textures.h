@@ -17,8 +17,8 @@
 #include "io/image_file.h"
 #include "surface/orientation_field.h"
 #include "surface/poisson_sampling.h"
+#include "texturing/particles/texture_particles.h"
 #include "texturing/texture_method.h"
-#include "texturing/texture_particles.h"
 #include "zoo.h"
 
 namespace ebru::test {

@@ -1,0 +1,151 @@
+#include "texturing/quilt/quilt_method.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "exemplar/feature_size.h"
+#include "surface/flat_frames.h"
+#include "surface/point_graph.h"
+#include "texturing/charts/chart_fade.h"
+#include "texturing/charts/chart_field.h"
+#include "texturing/particles/particle_method.h"
+#include "texturing/particles/texture_wear.h"
+#include "texturing/quilt/quilting.h"
+#include "texturing/quilt/seam_residual.h"
+#include "texturing/quilt/stretch_forecast.h"
+
+namespace ebru {
+namespace {
+
+constexpr float graphReach = 1.9f;  ///< of the 1-ring, in Poisson spacings
+constexpr int ringSize = 10;
+/// Bumps the texture is laid over: sigma of the normals' diffusion, in features, and at most, in texels.
+constexpr float bumpFeatures = 0.35f, mostBumpTexels = 5.0f;
+/// Of pieces, in features: of new ones, of those that cover a surface without any texture, and of those that mend its seams.
+constexpr float radiusFeatures = 1.6f, coreFeatures = 0.5f, firstRadiusFeatures = 6.0f, mendingRadiusFeatures = 3.0f;
+constexpr int mendingRounds = 8;
+constexpr float mostLayingStretch = 1.3f;
+/// Texture that is stretched by a frame alone as much as the bound is not worth a change in every frame: it should last.
+constexpr float lastingFrames = 6.0f, mostBound = 3.0f;
+constexpr float screening = 0.08f;
+constexpr int firstRelaxation = 60, relaxation = 5, relaxedRings = 3;
+
+class QuiltMethod : public ParticleMethod {
+ public:
+  QuiltMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
+      : ParticleMethod(options, seed, times),
+        bound_(static_cast<float>(options.stretch_bound)),
+        lookAhead_(options.look_ahead),
+        search_(*exemplar()) {
+    const PhaseTimer timer(times, "exemplar");
+    feature_ = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(*exemplar());
+  }
+
+  int lookAhead() const override { return lookAhead_; }
+
+ private:
+  void startFrom(const FluidFrame& first, TextureParticles& particles) override {
+    std::vector<ParticleFate> fates;
+    {
+      const PhaseTimer timer(times(), "sampling");
+      keepSpacing(first, *exemplar(), texelWorld(), seed(), particles, fates);
+    }
+    const PhaseTimer timer(times(), "synthesis");
+    retexture(first, {}, fates, particles);
+  }
+  void retexture(const FluidFrame& frame, FramesAhead ahead, const std::vector<ParticleFate>& fates,
+                 TextureParticles& particles) const override;
+  std::shared_ptr<const TextureField> makeField(std::shared_ptr<const TextureParticles> particles) const override {
+    return std::make_shared<ChartField>(std::move(particles), exemplar(), texelWorld());
+  }
+
+  std::vector<float> bounds(const OrientedPoints& points, const StretchForecast& forecast,
+                            const std::vector<float>& wear) const;
+  void quilt(const QuiltSurface& surface, const StretchForecast& forecast) const;
+  void relax(const QuiltSurface& surface, const std::vector<ParticleFate>& fates, int sweeps) const;
+
+  float bound_;
+  int lookAhead_;
+  float feature_ = 0.0f;  ///< texels
+  PieceSearch search_;
+};
+
+bool withoutTexture(std::span<const float> wear) {
+  return std::all_of(wear.begin(), wear.end(), [](float w) { return w >= noTexture; });
+}
+
+void QuiltMethod::retexture(const FluidFrame& frame, FramesAhead ahead, const std::vector<ParticleFate>& fates,
+                            TextureParticles& particles) const {
+  advanceFades(particles);
+  const auto still = [](ParticleFate fate) { return fate == ParticleFate::still; };
+  if (std::all_of(fates.begin(), fates.end(), still)) return;
+  const PointGraph graph = buildPointGraph(particles.position, particles.normal,
+                                           graphReach * poissonSpacingTexels * texelWorld(), ringSize);
+  const FlatFrames flat(particles.points(), graph, std::min(bumpFeatures * feature_, mostBumpTexels));
+  const ChartSnapshot before{particles.st, particles.jacobian};
+  parallelFor(particles.size(), 4096, [&](std::size_t i) {
+    particles.jacobian[i] = flat.flattened(i, before.jacobian[i]);
+  });
+  std::vector<float> wear = textureWear(particles, fates, *exemplar());
+  const StretchForecast forecast(frame, ahead, texelWorld());
+  const std::vector<float> bound = bounds(flat.points(), forecast, wear);
+  std::vector<std::uint8_t> laid(particles.size());
+  const QuiltSurface surface{flat.points(), graph, texelWorld(),
+                             {particles.colour, particles.st, particles.jacobian}, wear, bound, laid};
+  const int sweeps = withoutTexture(wear) ? firstRelaxation : relaxation;
+  quilt(surface, forecast);
+  relax(surface, fates, sweeps);
+  // What was not laid anew keeps its bits.
+  parallelFor(particles.size(), 4096, [&](std::size_t i) {
+    particles.jacobian[i] = laid[i] ? flat.unflattened(i, particles.jacobian[i]) : before.jacobian[i];
+  });
+  startFades(before, laid, fates, particles);
+}
+
+std::vector<float> QuiltMethod::bounds(const OrientedPoints& points, const StretchForecast& forecast,
+                                       const std::vector<float>& wear) const {
+  std::vector<float> bound(wear.size(), bound_);
+  const float most = std::max(mostBound, bound_);
+  parallelFor(bound.size(), 512, [&](std::size_t i) {
+    if (wear[i] <= bound_ || wear[i] >= noTexture) return;  // the others need not know
+    const float next = forecast.nextStretch({points.positions[i], points.normals[i], points.orientations[i]});
+    bound[i] = std::clamp(std::exp(lastingFrames * next), bound_, most);
+  });
+  return bound;
+}
+
+void QuiltMethod::quilt(const QuiltSurface& surface, const StretchForecast& forecast) const {
+  const bool first = withoutTexture(surface.wear);
+  const OrientedPoints& points = surface.points;
+  const float most = std::min(mostLayingStretch, bound_);
+  const PreStretch laying = [&](std::uint32_t i) -> Mat2f {
+    if (first) return Mat2f::Identity();
+    return forecast.layingStretch({points.positions[i], points.normals[i], points.orientations[i]}, most, bound_);
+  };
+  coverWorn(surface, *exemplar(), search_, {(first ? firstRadiusFeatures : radiusFeatures) * feature_, coreFeatures * feature_},
+            laying);
+  if (first) mendSeams(surface, *exemplar(), search_, {mendingRadiusFeatures * feature_, 0.0f}, mendingRounds);
+}
+
+void QuiltMethod::relax(const QuiltSurface& surface, const std::vector<ParticleFate>& fates, int sweeps) const {
+  std::vector<std::uint8_t> region(surface.laid.begin(), surface.laid.end()), next;
+  for (int ring = 0; ring < relaxedRings; ++ring) {
+    next = region;
+    parallelFor(region.size(), 512, [&](std::size_t i) {
+      if (region[i] || fates[i] == ParticleFate::still) return;
+      const auto links = surface.graph.of(static_cast<std::uint32_t>(i));
+      next[i] = std::any_of(links.begin(), links.end(), [&](std::uint32_t j) { return region[j] != 0; });
+    });
+    region.swap(next);
+  }
+  relaxResiduals(surface.points, surface.graph, *exemplar(), texelWorld(), region, screening, sweeps, surface.texture);
+}
+
+}  // namespace
+
+std::unique_ptr<TextureMethod> makeQuiltMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times) {
+  return std::make_unique<QuiltMethod>(options, seed, times);
+}
+
+}  // namespace ebru
