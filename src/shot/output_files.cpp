@@ -38,11 +38,15 @@ std::filesystem::path OutputFiles::preview(int frame) const {
 std::filesystem::path OutputFiles::geometry(int frame) const {
   return folder_ / "geometry" / fmt::format("{}.{:04}.ply", name_, frame);
 }
+std::filesystem::path OutputFiles::atlas(int frame) const {
+  return folder_ / "geometry" / fmt::format("{}.{:04}.atlas.exr", name_, frame);
+}
 std::filesystem::path OutputFiles::movie() const { return folder_ / (name_ + ".mp4"); }
 std::filesystem::path OutputFiles::states() const { return folder_ / "states"; }
 std::filesystem::path OutputFiles::picturePattern() const { return folder_ / (name_ + ".####.exr"); }
 std::filesystem::path OutputFiles::previewPattern() const { return folder_ / "preview" / (name_ + ".####.png"); }
 std::filesystem::path OutputFiles::geometryPattern() const { return folder_ / "geometry" / (name_ + ".####.ply"); }
+std::filesystem::path OutputFiles::atlasPattern() const { return folder_ / "geometry" / (name_ + ".####.atlas.exr"); }
 
 void addShotAttributes(ChannelImage& image, const Shot& shot, const std::string& fingerprint) {
   setAttribute(image, "ebru:version", std::string(programVersion()));
@@ -55,19 +59,27 @@ void addShotAttributes(ChannelImage& image, const Shot& shot, const std::string&
   setAttribute(image, "ebru:fingerprint", fingerprint);
 }
 
-bool isFinishedPicture(const std::filesystem::path& path, const std::string& fingerprint) {
+std::optional<ChannelImage> finishedExr(const std::filesystem::path& path, std::span<const std::string_view> channels,
+                                        const std::string& fingerprint) {
   std::error_code failed;
-  if (!std::filesystem::is_regular_file(path, failed)) return false;
+  if (!std::filesystem::is_regular_file(path, failed)) return std::nullopt;
   try {
-    const ChannelImage image = readExr(path);
-    for (const AovInfo& aov : aovTable())
-      if (!image.find(aov.channel)) return false;
+    ChannelImage image = readExr(path);
+    for (const std::string_view channel : channels)
+      if (!image.find(channel)) return std::nullopt;
     const auto* written = image.attribute("ebru:fingerprint");
     const auto* text = written ? std::get_if<std::string>(written) : nullptr;
-    return text && *text == fingerprint;
+    if (!text || *text != fingerprint) return std::nullopt;
+    return image;
   } catch (const InputError&) {
-    return false;
+    return std::nullopt;
   }
+}
+
+bool isFinishedPicture(const std::filesystem::path& path, const std::string& fingerprint) {
+  std::vector<std::string_view> channels;
+  for (const AovInfo& aov : aovTable()) channels.push_back(aov.channel);
+  return finishedExr(path, channels, fingerprint).has_value();
 }
 
 }  // namespace ebru

@@ -29,19 +29,32 @@ struct PlyFace {
   std::uint8_t count = 3;
   std::int32_t vertices[3];
 };
+struct PlyTexcoord {
+  std::uint8_t count = 6;
+  float uv[6];
+};
+struct PlyAtlasFace {
+  PlyFace face;
+  PlyTexcoord texcoord;
+};
 #pragma pack(pop)
 
 std::string fingerprintComment(const std::string& fingerprint) {
   return "comment ebru:fingerprint " + fingerprint + "\n";
 }
 
-std::string header(std::size_t vertices, std::size_t faces, const std::string& fingerprint) {
+/// @param atlasFile  null without an atlas
+std::string header(std::size_t vertices, std::size_t faces, const std::string& fingerprint,
+                   const std::string* atlasFile) {
   std::string text = "ply\nformat binary_little_endian 1.0\n" + fingerprintComment(fingerprint);
+  if (atlasFile) text += "comment TextureFile " + *atlasFile + "\n";
   text += fmt::format("element vertex {}\n", vertices);
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"}) text += fmt::format("property float {}\n", name);
   for (const char* name : {"red", "green", "blue"}) text += fmt::format("property uchar {}\n", name);
   for (const char* name : {"vx", "vy", "vz"}) text += fmt::format("property float {}\n", name);
-  return text + fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", faces);
+  text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", faces);
+  if (atlasFile) text += "property list uchar float texcoord\n";
+  return text + "end_header\n";
 }
 
 std::uint8_t srgb8(float linear) {
@@ -84,6 +97,15 @@ std::vector<PlyVertex> texturedVertices(const FluidFrame& frame, const TextureFi
   return vertices;
 }
 
+std::vector<PlyAtlasFace> withTexcoords(const std::vector<PlyFace>& faces, const SurfaceAtlas& atlas) {
+  std::vector<PlyAtlasFace> result(faces.size());
+  for (std::size_t t = 0; t < faces.size(); ++t) {
+    result[t].face = faces[t];
+    for (std::size_t i = 0; i < 6; ++i) result[t].texcoord.uv[i] = atlas.uv[t][i / 2][static_cast<int>(i % 2)];
+  }
+  return result;
+}
+
 template <class T>
 void writeArray(std::ofstream& out, const std::vector<T>& values) {
   out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
@@ -92,17 +114,20 @@ void writeArray(std::ofstream& out, const std::vector<T>& values) {
 }  // namespace
 
 void writeTexturedPly(const std::filesystem::path& path, const FluidFrame& frame, const TextureField& texture,
-                      const std::string& fingerprint) {
+                      const std::string& fingerprint, const SurfaceAtlas* atlas, const std::string& atlasFile) {
   const std::vector<PlyVertex> vertices = texturedVertices(frame, texture);
   std::vector<PlyFace> faces(frame.mesh.triangles.size());
   for (std::size_t t = 0; t < faces.size(); ++t)
     for (int c = 0; c < 3; ++c) faces[t].vertices[c] = frame.mesh.triangles[t][c];
-  const std::string head = header(vertices.size(), faces.size(), fingerprint);
+  const std::string head = header(vertices.size(), faces.size(), fingerprint, atlas ? &atlasFile : nullptr);
   writeAtomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary, std::ios::binary);
     out.write(head.data(), static_cast<std::streamsize>(head.size()));
     writeArray(out, vertices);
-    writeArray(out, faces);
+    if (atlas)
+      writeArray(out, withTexcoords(faces, *atlas));
+    else
+      writeArray(out, faces);
     out.close();
     if (!out) throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
   });

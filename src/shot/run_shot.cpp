@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "io/exr_file.h"
 #include "io/image_file.h"
 #include "render/renderer.h"
+#include "shot/atlas_export.h"
+#include "shot/fingerprint.h"
 #include "shot/frame_pipeline.h"
 #include "shot/interrupt.h"
 #include "shot/movie.h"
@@ -47,6 +50,62 @@ class Previews {
   }
 
  private:
+  FramePipeline& pipeline_;
+};
+
+/// The surface of every frame of the run, and its atlas if one is asked for: finished together.
+class SurfaceExport {
+ public:
+  SurfaceExport(const Shot& shot, const RunOptions& options, FramePipeline& pipeline)
+      : shot_(shot), width_(options.atlasWidth), height_(options.atlasHeight), pipeline_(pipeline) {}
+
+  /// A file of this frame that is there, or the one that is made last.
+  std::filesystem::path existing(int frame) const {
+    std::error_code failed;
+    const OutputFiles& files = pipeline_.files();
+    return width_ > 0 && std::filesystem::exists(files.atlas(frame), failed) ? files.atlas(frame) : files.geometry(frame);
+  }
+
+  bool finished(int frame) const {
+    const std::string print = fingerprint(frame);
+    return isFinishedPly(pipeline_.files().geometry(frame), print) &&
+           (width_ == 0 || isFinishedAtlas(pipeline_.files().atlas(frame), width_, height_, print));
+  }
+
+  void write(int frame) const {
+    const auto texture = pipeline_.texture(frame);
+    const auto fluid = pipeline_.fluid(frame);
+    std::optional<SurfaceAtlas> atlas;
+    if (width_ > 0) atlas = writeAtlas(*fluid, *texture);
+    pipeline_.log().stage(frame, "geometry");
+    const PhaseTimer timer(&pipeline_.times(), "write geometry");
+    writeTexturedPly(pipeline_.files().geometry(frame), *fluid, *texture, fingerprint(frame), atlas ? &*atlas : nullptr,
+                     pipeline_.files().atlas(frame).filename().string());
+  }
+
+ private:
+  /// A surface without an atlas has other faces than one with it, and other atlases have other coordinates.
+  std::string fingerprint(int frame) const {
+    const std::string picture = pipeline_.identity().picture(frame);
+    if (width_ == 0) return picture;
+    return Fingerprint().add(picture).add(fmt::format("atlas {}x{}", width_, height_)).text();
+  }
+
+  SurfaceAtlas writeAtlas(const FluidFrame& fluid, const TextureField& texture) const {
+    PhaseTimes& times = pipeline_.times();
+    pipeline_.log().stage(fluid.frame, "atlas");
+    std::optional<PhaseTimer> timer(std::in_place, &times, "atlas: charts");
+    SurfaceAtlas atlas = makeSurfaceAtlas(fluid.mesh, width_, height_, fmt::format("frame {}", fluid.frame));
+    timer.emplace(&times, "atlas: look-ups");
+    ChannelImage image = bakeAtlas(fluid, atlas, texture);
+    addShotAttributes(image, shot_, fingerprint(fluid.frame));
+    timer.emplace(&times, "write atlas");
+    writeExr(pipeline_.files().atlas(fluid.frame), image);
+    return atlas;
+  }
+
+  const Shot& shot_;
+  const int width_, height_;
   FramePipeline& pipeline_;
 };
 
@@ -106,18 +165,14 @@ void synthesiseShot(const Shot& shot, const RunOptions& options) {
 void exportShot(const Shot& shot, const RunOptions& options) {
   catchInterrupts();
   FramePipeline pipeline(shot, options, false);
+  const SurfaceExport surfaces(shot, options, pipeline);
   const OutputFiles& files = pipeline.files();
-  const std::vector<int> frames = pipeline.framesToDo(
-      [&](int f) { return files.geometry(f); },
-      [&](int f) { return isFinishedPly(files.geometry(f), pipeline.identity().picture(f)); });
-  pipeline.forEach(frames, [&](int frame) {
-    const auto texture = pipeline.texture(frame);
-    pipeline.log().stage(frame, "geometry");
-    const PhaseTimer timer(&pipeline.times(), "write geometry");
-    writeTexturedPly(files.geometry(frame), *pipeline.fluid(frame), *texture, pipeline.identity().picture(frame));
-  });
-  pipeline.summarise(frames.size(), frames.size() == 1 ? "surface" : "surfaces",
-                     {"surfaces  " + files.geometryPattern().string()});
+  const std::vector<int> frames = pipeline.framesToDo([&](int f) { return surfaces.existing(f); },
+                                                      [&](int f) { return surfaces.finished(f); });
+  pipeline.forEach(frames, [&](int frame) { surfaces.write(frame); });
+  std::vector<std::string> places = {"surfaces  " + files.geometryPattern().string()};
+  if (options.atlasWidth > 0) places.push_back("atlases   " + files.atlasPattern().string());
+  pipeline.summarise(frames.size(), frames.size() == 1 ? "surface" : "surfaces", places);
 }
 
 }  // namespace ebru

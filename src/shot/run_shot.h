@@ -19,6 +19,7 @@ struct RunOptions {
   ExistingFiles existing = ExistingFiles::refuse;
   bool keepStates = false;
   bool preview = false;          ///< PNGs and a movie too
+  int atlasWidth = 0, atlasHeight = 0;  ///< export: texels of the atlas of each frame; 0 for none
   int threads = 0;               ///< 0 for the machine's
   std::string command;           ///< repeats this run; for messages
 };
@@ -30,7 +31,8 @@ void renderShot(const Shot& shot, const RunOptions& options);
 /// The states alone, all of them kept. Throws as renderShot.
 void synthesiseShot(const Shot& shot, const RunOptions& options);
 
-/// Textured surfaces to OUT/geometry/NAME.####.ply. Throws as renderShot.
+/// Textured surfaces to OUT/geometry/NAME.####.ply, and where atlases have a size those to
+/// OUT/geometry/NAME.####.atlas.exr. Throws as renderShot; UsageError too if a surface's charts do not fit its atlas.
 void exportShot(const Shot& shot, const RunOptions& options);
 
 }  // namespace ebru
