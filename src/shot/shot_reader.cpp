@@ -46,6 +46,30 @@ ConfigValue emptyTable(const std::string& key, const std::string& where) {
   return table;
 }
 
+/// Puts tables in tables beside their parents, under the name that the list of tables has for them.
+void liftInnerTables(ConfigValue& config) {
+  for (const ShotTable& table : shotTables()) {
+    const std::size_t dot = table.name.find('.');
+    ConfigValue* parent = dot == std::string::npos ? nullptr : config.find(table.name.substr(0, dot));
+    ConfigValue* inner = parent && parent->kind == Kind::table ? parent->find(table.name.substr(dot + 1)) : nullptr;
+    if (!inner) continue;
+    ConfigValue lifted = std::move(*inner);
+    parent->items.erase(parent->items.begin() + (inner - parent->items.data()));
+    lifted.key = table.name;
+    config.items.push_back(std::move(lifted));
+  }
+}
+
+/// "texture.erosion.fade" as the table "texture.erosion" and its key, where there is such a table.
+std::vector<std::string> tableAndKey(const std::string& setting) {
+  std::vector<std::string> path = splitAtDots(setting);
+  if (path.size() > 2 && findTable(path[0] + "." + path[1])) {
+    path[1] = path[0] + "." + path[1];
+    path.erase(path.begin());
+  }
+  return path;
+}
+
 /// The table that "light.0" or "texture" names, made if the file does not have it.
 /// @return null with a problem noted
 ConfigValue* overriddenTable(ConfigValue& config, const std::vector<std::string>& path, const std::string& where,
@@ -89,7 +113,7 @@ void applyOverride(ConfigValue& config, const std::string& setting, std::vector<
     problems.push_back(where + ": got no \"=\", expected table.key=value");
     return;
   }
-  const std::vector<std::string> path = splitAtDots(setting.substr(0, equals));
+  const std::vector<std::string> path = tableAndKey(setting.substr(0, equals));
   ConfigValue* table = overriddenTable(config, path, where, problems);
   if (!table || table->kind != Kind::table) return;
   ConfigValue value = parseOverrideValue(setting.substr(equals + 1));
@@ -162,6 +186,7 @@ void throwProblems(const std::vector<std::string>& problems) {
 
 Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   ConfigValue config = readConfig(file);
+  liftInnerTables(config);
   std::vector<std::string> problems;
   for (const std::string& setting : overrides) applyOverride(config, setting, problems);
 

@@ -50,6 +50,8 @@ const std::vector<ShotTable>& shotTables() {
                            [](Shot& s) -> auto& { return s.fluid; }),
       single<TextureOptions>("texture", "What it is covered with, and how.", true,
                              [](Shot& s) -> auto& { return s.texture; }),
+      single<ErosionOptions>("texture.erosion", "What method erosion alone asks for.", true,
+                             [](Shot& s) -> auto& { return s.texture.erosion; }),
       single<CameraOptions>("camera", "Where it is seen from.", false,
                             [](Shot& s) -> auto& { return s.scene.camera; }),
       single<RenderOptions>("render", "How the picture is taken.", false,

@@ -11,7 +11,7 @@
 namespace ebru {
 
 struct ShotTable {
-  std::string name;           ///< "texture", or "light" for [[light]]
+  std::string name;           ///< "texture", "texture.erosion" for a table in it, or "light" for [[light]]
   std::string help;           ///< one sentence for the reference
   bool isArray = false;       ///< [[name]]: any number of them
   bool decidesState = false;  ///< the texture's states depend on it, not the pictures alone

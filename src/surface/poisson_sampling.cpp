@@ -1,50 +1,14 @@
 #include "surface/poisson_sampling.h"
 
-#include <bit>
 #include <cmath>
 
 #include "core/parallel.h"
 #include "core/random.h"
 #include "surface/cell_grid.h"
+#include "surface/surface_darts.h"
 
 namespace ebru {
 namespace {
-
-struct Dart {
-  Vec3f position, normal;
-};
-
-float triangleArea(const TriangleMesh& mesh, std::size_t t) {
-  const Vec3i& tri = mesh.triangles[t];
-  const Vec3f& a = mesh.positions[tri[0]];
-  return 0.5f * (mesh.positions[tri[1]] - a).cross(mesh.positions[tri[2]] - a).norm();
-}
-
-/// A uniform random point of triangle t.
-Dart throwDart(const TriangleMesh& mesh, std::size_t t, Random& random) {
-  const Vec3i& tri = mesh.triangles[t];
-  const float root = std::sqrt(random.uniform());
-  const float v = random.uniform();
-  const float a = 1.0f - root, b = root * (1.0f - v), c = root * v;
-  Vec3f normal = a * mesh.normals[tri[0]] + b * mesh.normals[tri[1]] + c * mesh.normals[tri[2]];
-  const float length = normal.norm();
-  normal = length > 1e-6f ? Vec3f(normal / length) : mesh.normals[tri[0]];
-  return {a * mesh.positions[tri[0]] + b * mesh.positions[tri[1]] + c * mesh.positions[tri[2]], normal};
-}
-
-/// Of a triangle's place alone: where the surface rests, the same places are asked in every frame.
-std::uint64_t placeHash(const TriangleMesh& mesh, std::size_t t) {
-  std::uint64_t hash = 0;
-  for (int corner = 0; corner < 3; ++corner)
-    for (int axis = 0; axis < 3; ++axis)
-      hash = hashCombine(hash, std::bit_cast<std::uint32_t>(mesh.positions[mesh.triangles[t][corner]][axis]));
-  return hash;
-}
-
-/// Number of darts for an expected count that is rarely whole, rounded at random so that the mean is right.
-int dartCount(double expected, Random& random) {
-  return static_cast<int>(expected + random.uniform());
-}
 
 bool crowded(const CellGrid& grid, const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
              const Dart& dart, float radius) {

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "core/error.h"
+#include "texturing/erosion/erosion_method.h"
 #include "texturing/particles/particles_method.h"
 #include "texturing/quilt/quilt_method.h"
 #include "texturing/synthesis/synthesis_method.h"
@@ -24,6 +25,8 @@ const std::vector<Entry>& registry() {
       {{"particles", "texture coordinates ride on particles, 64 nearest interpolated (Rasmussen 2004): distorts"},
        makeParticlesMethod},
       {{"synthesis", "surface texture optimisation on advected texture particles (Kwatra 2007)"}, makeSynthesisMethod},
+      {{"erosion", "deformable lapped patches, eroded along the exemplar's features where they are distorted (Gagnon 2021)"},
+       makeErosionMethod},
       {{"quilt", "ours: texture follows the flow strictly, worn pieces are quilted anew along least-error cuts"}, makeQuiltMethod},
   };
   return entries;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/options.h"
+#include "texturing/erosion/erosion_options.h"
 
 namespace ebru {
 
@@ -26,6 +27,8 @@ struct TextureOptions {
   int look_ahead = 8;
   std::string transport = "particles";
   int iterations = 2;
+
+  ErosionOptions erosion;
 };
 
 OptionFields fields(TextureOptions& options);

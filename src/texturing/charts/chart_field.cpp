@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "texturing/exemplar_at_hit.h"
 
 namespace ebru {
 namespace {

@@ -29,13 +29,4 @@ class NearestParticles {
   PointIndex index_;
 };
 
-/// What the exemplar shows, as a sample of the texture.
-inline void take(const ExemplarSample& shown, TextureSample& sample) {
-  sample.colour = shown.colour;
-  sample.displacement = shown.height;
-  sample.roughness = shown.roughness;
-  sample.alpha = shown.alpha;
-  sample.emission = shown.emission;
-}
-
 }  // namespace ebru

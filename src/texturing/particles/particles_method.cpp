@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "texturing/exemplar_at_hit.h"
 #include "texturing/particles/nearest_particles.h"
 #include "texturing/particles/particle_method.h"
 

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "exemplar/feature_cells.h"
+#include "texturing/erosion/deformable_patch.h"
+
+namespace ebru {
+
+/// Which places of a patch are eroded [Gagnon 2021, sec. 5.2]: those where
+///     sqrt(F + D) / max sqrt(F + D) - epsilon < 1 - w,
+/// F the feature map, D the place's nearness to the centre, w the weight of eq. 3.
+/// With cells, whole features are: F is a feature's importance, D is taken at its middle and w is the mean quality on it, 0 if
+/// the rim of the patch cuts it. A feature that was hidden in the frame before comes out only while it is hardly distorted: else it
+/// would go again soon. Refers to the maps. Const members are safe to call concurrently.
+class PatchErosion {
+ public:
+  /// @param cells  null: places are eroded one by one, as in the paper
+  PatchErosion(const FeatureMap& features, const FeatureCells* cells, float radiusWorld, float texelWorld, float epsilon)
+      : features_(features), cells_(cells), radiusWorld_(radiusWorld), texelWorld_(texelWorld), epsilon_(epsilon) {}
+
+  /// By how much a place is kept; eroded where it is negative.
+  /// @param judged  cells of the patch, if it has them
+  /// @param rest  as in DeformablePatch
+  float margin(const PatchIdentity& patch, std::span<const CellMargin> judged, const Vec2f& rest, float weight) const {
+    if (cells_) return cellMargin(patch, judged, rest, weight);
+    const float nearness = nearnessOf(rest), least = std::sqrt(nearness) / patch.largestTerm - epsilon_ - (1.0f - weight);
+    // Most places are kept whatever the feature map says.
+    if (least >= 0.0f) return least;
+    const float feature = features_.at(patch.tile, placeOf(patch, rest));
+    return std::sqrt(feature + nearness) / patch.largestTerm - epsilon_ - (1.0f - weight);
+  }
+
+  /// Which of the judged cells a place lies in; their number if in none.
+  std::size_t judgedPlace(const PatchIdentity& patch, std::span<const CellMargin> judged, const Vec2f& rest) const {
+    if (judged.empty()) return 0;
+    const std::uint32_t cell = cells_->at(patch.tile, placeOf(patch, rest));
+    const auto found =
+        std::lower_bound(judged.begin(), judged.end(), cell, [](const CellMargin& c, std::uint32_t wanted) { return c.cell < wanted; });
+    return found != judged.end() && found->cell == cell ? static_cast<std::size_t>(found - judged.begin()) : judged.size();
+  }
+
+  /// Fills `cells` of a measured patch.
+  void judge(DeformablePatch& patch) const;
+
+  /// Where a patch's centre best lies in the exemplar, near `st`: in the middle of a feature.
+  Vec2f centreNear(int tile, const Vec2f& st) const { return cells_ ? cells_->centre(cells_->at(tile, st)) : st; }
+
+  /// The maximum of sqrt(F + D) over a patch with that centre.
+  float largestTerm(const PatchIdentity& patch) const;
+
+ private:
+  float nearnessOf(const Vec2f& rest) const { return std::max(0.0f, 1.0f - rest.norm() / radiusWorld_); }
+  Vec2f placeOf(const PatchIdentity& patch, const Vec2f& rest) const { return patch.centreSt + rest / texelWorld_; }
+  float cellTerm(const PatchIdentity& patch, std::uint32_t cell) const {
+    return cells_->importance(cell) + nearnessOf((cells_->centre(cell) - patch.centreSt) * texelWorld_);
+  }
+  float cellMargin(const PatchIdentity& patch, std::span<const CellMargin> judged, const Vec2f& rest, float weight) const {
+    const std::size_t place = judgedPlace(patch, judged, rest);
+    if (place < judged.size()) return judged[place].margin;
+    // Smaller than the triangles.
+    return std::sqrt(cellTerm(patch, cells_->at(patch.tile, placeOf(patch, rest)))) / patch.largestTerm - epsilon_ - (1.0f - weight);
+  }
+
+  const FeatureMap& features_;
+  const FeatureCells* cells_;
+  float radiusWorld_, texelWorld_, epsilon_;
+};
+
+}  // namespace ebru
