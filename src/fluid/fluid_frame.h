@@ -31,7 +31,8 @@ class FluidFrame {
   int frame = 0;
   double framesPerSecond = 24.0;
   TriangleMesh mesh;
-  /// Metres, negative in the fluid; narrow band of at least `bandWorld` on both sides.
+  /// Metres, negative in the fluid; narrow band of at least `bandWorld` on both sides. An open surface is continued
+  /// straight for two voxels beyond its rim; NaN farther out.
   SampledGrid<1> signedDistance;
   float voxelSizeWorld = 0.0f;
   float bandWorld = 0.0f;

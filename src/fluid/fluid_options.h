@@ -26,4 +26,9 @@ struct FluidOptions {
 
 OptionFields fields(FluidOptions& options);
 
+/// Whether the frames come from the files of `path`.
+inline bool readsFiles(const FluidOptions& options) { return options.source == "vdb" || options.source == "mesh"; }
+/// Whether that is one file for all frames.
+bool readsOneFile(const FluidOptions& options);
+
 }  // namespace ebru

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "fluid/mesh_sequence.h"
 #include "fluid/procedural_sequence.h"
 #include "fluid/vdb_sequence.h"
 
@@ -18,7 +19,13 @@ std::unique_ptr<FluidSequence> openFluidSequence(const FluidOptions& options, do
           "fluid.path: got nothing, expected the cache's files; set fluid.path = \"cache/dam.####.vdb\"");
     return std::make_unique<VdbSequence>(options, framesPerSecond);
   }
-  throw UsageError(fmt::format("fluid.source: got \"{}\", expected vdb or procedural", options.source));
+  if (options.source == "mesh") {
+    if (options.path.empty())
+      throw UsageError(
+          "fluid.path: got nothing, expected the cache's files; set fluid.path = \"cache/dam.####.ply\"");
+    return std::make_unique<MeshSequence>(options, framesPerSecond);
+  }
+  throw UsageError(fmt::format("fluid.source: got \"{}\", expected vdb, mesh or procedural", options.source));
 }
 
 }  // namespace ebru

@@ -23,6 +23,7 @@ std::vector<Vec3f> triangleNormals(const TriangleMesh& mesh) {
 
 void addNormals(FluidFrame& frame) {
   TriangleMesh& mesh = frame.mesh;
+  if (mesh.normals.size() == mesh.positions.size()) return;
   mesh.normals.assign(mesh.positions.size(), Vec3f::Zero());
   parallelFor(mesh.positions.size(), 2048,
               [&](std::size_t i) { frame.normalAt(mesh.positions[i], mesh.normals[i]); });

@@ -17,8 +17,8 @@ class UnknownVelocity : public VelocityField {
   bool sample(const Vec3f&, Vec3f&) const override { return false; }
 };
 
-/// Fills mesh.normals (from the signed distance; area-weighted from the triangles where that has no slope)
-/// and maxSpeedWorldPerSec.
+/// Fills mesh.normals, unless the geometry brings them (from the signed distance; area-weighted from the triangles
+/// where that has no slope), and maxSpeedWorldPerSec.
 /// @param velocity  null stands for UnknownVelocity
 /// @param times  may be null
 /// Deterministic for any number of threads.

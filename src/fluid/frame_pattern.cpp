@@ -68,6 +68,20 @@ std::string FramePattern::path(int frame) const {
   return (std::filesystem::path(folder_) / name).string();
 }
 
+std::string FramePattern::existingPath(const std::vector<int>& frames, int frame) const {
+  const auto next = std::lower_bound(frames.begin(), frames.end(), frame);
+  const std::string file = path(frame);
+  if (next != frames.end() && *next == frame) return file;
+  if (next == frames.begin() || next == frames.end())
+    throw InputError(
+        fmt::format("{}: frame {}: got one outside the cache, expected {} to {}; choose other frames", file,
+                    frame, frames.front(), frames.back()));
+  throw InputError(
+      fmt::format("{}: frame {}: got no such file, expected one between frames {} and {}, which exist; "
+                  "write it again or choose other frames",
+                  file, frame, *(next - 1), *next));
+}
+
 std::vector<int> FramePattern::list() const {
   namespace fs = std::filesystem;
   std::error_code error;

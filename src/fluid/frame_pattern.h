@@ -15,10 +15,14 @@ class FramePattern {
   explicit FramePattern(const std::string& pattern);
 
   const std::string& pattern() const { return pattern_; }
+  /// Without a frame number to fill in.
+  bool isSingle() const { return single_; }
   std::string path(int frame) const;
   /// Frames whose files exist, ascending. @throw InputError if there are none or the folder
   /// cannot be listed
   std::vector<int> list() const;
+  /// The file of a frame. @param frames  that exist, ascending. @throw InputError if it is none of them
+  std::string existingPath(const std::vector<int>& frames, int frame) const;
 
  private:
   std::string pattern_;

@@ -147,14 +147,6 @@ SampledGrid<1> sampleGrid(const FloatGrid& grid) {
   return samples;
 }
 
-bool hasArea(const std::vector<Vec3f>& p, const Vec3i& t) {
-  if (t.x() == t.y() || t.y() == t.z() || t.z() == t.x()) return false;
-  const Vec3f a = p[t.y()] - p[t.x()], b = p[t.z()] - p[t.x()];
-  const float longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
-  // Twice the area against the longest edge squared: below this its normal is rounding error.
-  return a.cross(b).norm() > 1e-6f * longest;
-}
-
 TriangleMesh meshOf(const FloatGrid& grid) {
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;

@@ -21,11 +21,11 @@ using LevelSet = std::shared_ptr<const void>;
 
 /// What a FluidFrame needs of a level set.
 struct SurfaceGeometry {
-  TriangleMesh mesh;              ///< without normals; see `addNormals` of analytic_frame.h
+  TriangleMesh mesh;              ///< normals may be left to `assembleFrame`
   SampledGrid<1> signedDistance;  ///< metres, negative in the fluid
   float voxelSizeWorld = 0.0f;
   float bandWorld = 0.0f;
-  LevelSet levelSet;     ///< the one the mesh was taken from
+  LevelSet levelSet;     ///< the one the mesh was taken from; null for the mesh of a file
   bool rebuilt = false;  ///< the level set given was no distance, or its band narrower than 3 voxels
 };
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "core/error.h"
@@ -18,22 +17,8 @@ VdbSequence::VdbSequence(const FluidOptions& options, double framesPerSecond)
       pattern_(options.path),
       frames_(pattern_.list()) {}
 
-std::string VdbSequence::existingPath(int frame) const {
-  const auto next = std::lower_bound(frames_.begin(), frames_.end(), frame);
-  if (next != frames_.end() && *next == frame) return pattern_.path(frame);
-  const std::string path = pattern_.path(frame);
-  if (next == frames_.begin() || next == frames_.end())
-    throw InputError(
-        fmt::format("{}: frame {}: got one outside the cache, expected {} to {}; choose other frames", path,
-                    frame, frames_.front(), frames_.back()));
-  throw InputError(
-      fmt::format("{}: frame {}: got no such file, expected one between frames {} and {}, which exist; "
-                  "write it again or choose other frames",
-                  path, frame, *(next - 1), *next));
-}
-
 std::shared_ptr<const FluidFrame> VdbSequence::load(int frame, PhaseTimes* times) const {
-  const std::string path = existingPath(frame);
+  const std::string path = pattern_.existingPath(frames_, frame);
   LevelSet levelSet;
   std::unique_ptr<RawVelocity> raw;
   {
@@ -52,7 +37,7 @@ std::shared_ptr<const FluidFrame> VdbSequence::load(int frame, PhaseTimes* times
 }
 
 std::string VdbSequence::describe(int frame) const {
-  const std::string path = existingPath(frame);
+  const std::string path = pattern_.existingPath(frames_, frame);
   std::string out = fmt::format("{}\nframes {} to {}, {} of {} there\n", path, firstFrame(), lastFrame(),
                                 frames_.size(), lastFrame() - firstFrame() + 1);
   out += VdbFile(path).describe();

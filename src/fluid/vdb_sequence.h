@@ -24,8 +24,6 @@ class VdbSequence : public FluidSequence {
   std::shared_ptr<const FluidFrame> load(int frame, PhaseTimes* times) const;
 
  private:
-  std::string existingPath(int frame) const;
-
   FluidOptions options_;
   double framesPerSecond_;
   FramePattern pattern_;

@@ -27,6 +27,7 @@ double pointResidual(const FramePair& pair, const Vec3f& p, double s) {
   pair.to->velocity->sample(p + h * a, b);
   SampledGrid<1>::Value distance;
   if (!pair.to->signedDistance.sample(p + 0.5f * h * (a + b), distance)) return farthestVoxels;
+  if (std::isnan(distance[0])) return farthestVoxels;  // beyond the rim of an open surface
   return std::min<double>(std::abs(distance[0]) / pair.to->voxelSizeWorld, farthestVoxels);
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "fluid/block_table.h"
 
 namespace ebru {
 
@@ -32,34 +33,6 @@ struct CellBlock {
 
 inline int cellIndex(int x, int y, int z) {
   return (z * 8 + y) * 8 + x;
-}
-
-/// A box of block coordinates and the number of the block at each of them.
-class BlockTable {
- public:
-  BlockTable(const Vec3i& lower, const Vec3i& upper)
-      : lower_(lower),
-        size_(upper - lower + Vec3i::Ones()),
-        number_(static_cast<std::size_t>(size_.x()) * size_.y() * size_.z(), -1) {}
-  int* find(const Vec3i& block) {
-    const Vec3i b = block - lower_;
-    if ((b.array() < 0).any() || (b.array() >= size_.array()).any()) return nullptr;
-    return &number_[(static_cast<std::size_t>(b.z()) * size_.y() + b.y()) * size_.x() + b.x()];
-  }
-  int at(const Vec3i& block) const {
-    const int* number = const_cast<BlockTable*>(this)->find(block);
-    return number ? *number : -1;
-  }
-  const Vec3i& lower() const { return lower_; }
-  Vec3i upper() const { return lower_ + size_ - Vec3i::Ones(); }
-
- private:
-  Vec3i lower_, size_;
-  std::vector<int> number_;
-};
-
-Vec3i floorDiv8(const Vec3i& v) {
-  return Vec3i(v.x() >> 3, v.y() >> 3, v.z() >> 3);
 }
 
 class Extension {
@@ -352,20 +325,6 @@ class Extension {
   std::vector<CellBlock> blocks_;
 };
 
-void requirePlausible(const RawVelocity& raw, const SurfaceGeometry& surface, double framesPerSecond,
-                      const std::string& where) {
-  Bounds3f bounds = raw.boundsWorld;
-  for (const Vec3f& p : surface.mesh.positions) bounds.include(p);
-  const double limit = 4.0 * bounds.size().norm();
-  const double perFrame = raw.maxSpeedWorldPerSec / framesPerSecond;
-  if (perFrame <= limit) return;
-  throw InputError(fmt::format(
-      "{}: velocity: got speeds up to {:.4g} units per second, that is {:.4g} units per frame at {:g} fps, "
-      "expected at most {:.4g} (4 times the extent of the fluid); set fluid.velocity_scale to what turns "
-      "the cache's velocity into units per second",
-      where, raw.maxSpeedWorldPerSec, perFrame, framesPerSecond, limit));
-}
-
 }  // namespace
 
 bool VelocityGrid::sample(const Vec3f& pWorld, Vec3f& velocityWorldPerSec) const {
@@ -384,11 +343,29 @@ bool VelocityGrid::sampleWithGradient(const Vec3f& pWorld, Vec3f& velocityWorldP
   return true;
 }
 
+void requirePlausibleSpeed(float maxSpeedWorldPerSec, const Bounds3f& boundsWorld, double framesPerSecond,
+                           const std::string& where) {
+  const double limit = 4.0 * boundsWorld.size().norm();
+  const double perFrame = maxSpeedWorldPerSec / framesPerSecond;
+  if (perFrame <= limit) return;
+  throw InputError(fmt::format(
+      "{}: velocity: got speeds up to {:.4g} units per second, that is {:.4g} units per frame at {:g} fps, "
+      "expected at most {:.4g} (4 times the extent of the fluid); set fluid.velocity_scale to what turns "
+      "the cache's velocity into units per second",
+      where, maxSpeedWorldPerSec, perFrame, framesPerSecond, limit));
+}
+
+int velocityReachCells(float maxSpeedWorldPerSec, double framesPerSecond, float cellSizeWorld) {
+  const double cellsPerFrame = maxSpeedWorldPerSec / framesPerSecond / cellSizeWorld;
+  return static_cast<int>(std::min(std::ceil(cellsPerFrame) + 3.0, double{largestReachCells}));
+}
+
 std::shared_ptr<const VelocityGrid> extendVelocity(const RawVelocity& raw, const SurfaceGeometry& surface,
                                                    double framesPerSecond, const std::string& where) {
-  requirePlausible(raw, surface, framesPerSecond, where);
-  const double cellsPerFrame = raw.maxSpeedWorldPerSec / framesPerSecond / raw.voxelSizeWorld;
-  const int reach = static_cast<int>(std::min(std::ceil(cellsPerFrame) + 3.0, double{largestReachCells}));
+  Bounds3f bounds = raw.boundsWorld;
+  for (const Vec3f& p : surface.mesh.positions) bounds.include(p);
+  requirePlausibleSpeed(raw.maxSpeedWorldPerSec, bounds, framesPerSecond, where);
+  const int reach = velocityReachCells(raw.maxSpeedWorldPerSec, framesPerSecond, raw.voxelSizeWorld);
   return std::make_shared<VelocityGrid>(Extension(raw, surface, reach).run());
 }
 

@@ -43,13 +43,20 @@ class VelocityGrid : public VelocityField {
   SampledGrid<3> samples_;
 };
 
+/// @throw InputError if the speed is implausible: over 4 times the diagonal of `boundsWorld` per frame
+void requirePlausibleSpeed(float maxSpeedWorldPerSec, const Bounds3f& boundsWorld, double framesPerSecond,
+                           const std::string& where);
+
+/// How far off the surface a velocity is extended, so that a point carried for a frame still finds one: the way of a
+/// frame and 3 cells, at most 32.
+int velocityReachCells(float maxSpeedWorldPerSec, double framesPerSecond, float cellSizeWorld);
+
 /// The solver's values in the fluid and at every cell the look-up on the surface reads; where the solver left such a cell
 /// out, the mean of its known neighbours, layer by layer (a repair of the data, within two cells of the surface). From
-/// these they are extended constant along the normal [Adalsteinsson & Sethian 1999], by OpenVDB's fast sweeping, max(speed)
-/// / fps + 3 cells off the surface, at most 32, so that a point carried for a frame still finds one. Deeper in the fluid a
-/// cell without a value is at rest.
+/// these they are extended constant along the normal [Adalsteinsson & Sethian 1999], by OpenVDB's fast sweeping,
+/// `velocityReachCells` off the surface. Deeper in the fluid a cell without a value is at rest.
 /// @param surface  with its level set; not empty
-/// @throw InputError if the speed is implausible: over 4 times the diagonal of fluid and velocity per frame
+/// @throw InputError as requirePlausibleSpeed, of fluid and velocity
 /// Deterministic for any number of threads.
 std::shared_ptr<const VelocityGrid> extendVelocity(const RawVelocity& raw, const SurfaceGeometry& surface,
                                                    double framesPerSecond, const std::string& where);

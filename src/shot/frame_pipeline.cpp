@@ -35,7 +35,7 @@ void checkWritable(const std::filesystem::path& folder) {
 
 /// Frames missing from the middle of a cache are found before the work on the others begins.
 void checkPresent(const FluidOptions& fluid, const std::vector<int>& frames) {
-  if (fluid.source != "vdb") return;
+  if (!readsFiles(fluid) || readsOneFile(fluid)) return;
   const std::vector<int> present = FramePattern(fluid.path).list();
   std::vector<int> missing;
   for (const int f : frames)

@@ -10,7 +10,8 @@
 
 namespace ebru {
 
-/// Which files of the cache a frame depends on, told apart by their sizes: a cache that was simulated again gives other
+/// Which files of the cache a frame depends on, told apart by their sizes, those of meshes, which are not compressed, also by
+/// samples of what they hold: a cache that was simulated again gives other
 /// fingerprints, one that was copied or touched the same, and one that is still growing changes the frames it must.
 /// Not thread-safe.
 class InputIdentity {
@@ -23,7 +24,7 @@ class InputIdentity {
   std::string picture(int frame);
 
  private:
-  std::uint64_t sizeOf(int frame) const;
+  std::uint64_t identityOf(int frame) const;
 
   const Shot& shot_;
   std::optional<FramePattern> pattern_;

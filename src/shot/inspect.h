@@ -6,9 +6,9 @@
 namespace ebru {
 
 struct InspectOptions {
-  std::string file;                   ///< shot file, VDB file or pattern of VDB files
+  std::string file;                   ///< shot file, VDB or PLY file, or pattern of such files
   std::string frames;                 ///< as parseFrames; empty for the first
-  double fps = 24.0;                  ///< of VDB files; a shot says its own
+  double fps = 24.0;                  ///< of VDB or PLY files; a shot says its own
   std::vector<std::string> settings;  ///< as after --set
 };
 

@@ -20,7 +20,8 @@ void setAttribute(ChannelImage& image, const std::string& name, ChannelImage::At
 }
 
 std::string describeVelocity(const FluidOptions& fluid) {
-  if (fluid.source != "vdb") return fluid.source;
+  if (!readsFiles(fluid)) return fluid.source;
+  if (fluid.source == "mesh") return fmt::format("vertex velocity x {} world/s", fluid.velocity_scale);
   return fmt::format("{} x {} world/s", fluid.velocity, fluid.velocity_scale);
 }
 

@@ -34,7 +34,8 @@ struct Shot {
 /// @throw UsageError listing every problem at once: unknown keys with line and nearest spelling, types, ranges
 Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
-/// Table [fluid] for a cache without a shot: the defaults, `path`, and overrides of that table alone.
+/// Table [fluid] for a cache without a shot: the defaults, `path` (of meshes if it ends in .ply), and overrides of that
+/// table alone.
 /// @throw UsageError as readShot
 FluidOptions readFluid(const std::string& path, const std::vector<std::string>& overrides);
 

@@ -167,9 +167,9 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (s.name.empty() || s.name == "." || s.name == ".." || s.name.find('/') != std::string::npos)
     problems.push_back(fmt::format("{}: shot.name: got \"{}\", expected a name that files can have",
                                    placeOf(config, shot, "shot", "name"), s.name));
-  if (shot.fluid.source == "vdb" && shot.fluid.path.empty())
-    problems.push_back(fmt::format("{}: fluid.path is missing: the cache's files, e.g. \"caches/dam/dam.####.vdb\"",
-                                   placeOf(config, shot, "fluid", "path")));
+  if (readsFiles(shot.fluid) && shot.fluid.path.empty())
+    problems.push_back(fmt::format("{}: fluid.path is missing: the cache's files, e.g. \"caches/dam/dam.####.{}\"",
+                                   placeOf(config, shot, "fluid", "path"), shot.fluid.source == "mesh" ? "ply" : "vdb"));
   const CameraOptions& camera = shot.scene.camera;
   if (camera.position == camera.target)
     problems.push_back(fmt::format("{}: camera.target: got the camera's own position, expected another point",
@@ -210,6 +210,7 @@ FluidOptions readFluid(const std::string& path, const std::vector<std::string>& 
   for (const std::string& setting : overrides) applyOverride(config, setting, problems);
   Shot shot;
   shot.fluid.path = path;
+  if (std::filesystem::path(path).extension() == ".ply") shot.fluid.source = "mesh";
   const ConfigValue* fluid = config.find("fluid");
   bindTable(fields(shot.fluid), fluid, "fluid", path, {}, problems);
   for (const ConfigValue& item : config.items)

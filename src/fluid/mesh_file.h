@@ -1,0 +1,30 @@
+#pragma once
+
+/// A surface with a velocity at every vertex, from a PLY file.
+
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+#include "fluid/triangle_mesh.h"
+
+namespace ebru {
+
+struct MovingMesh {
+  TriangleMesh mesh;                         ///< without normals
+  std::vector<Vec3f> velocitiesWorldPerSec;  ///< one per vertex
+};
+
+/// Element `vertex` with x y z and vx vy vz (or velocity_x velocity_y velocity_z), element `face` with the
+/// list vertex_indices (or vertex_index). Polygons are cut into triangles; triangles without area and
+/// vertices without a triangle are left out, the others stay as and in the order they are. A file without
+/// faces or vertices in it is an empty mesh.
+/// @param velocityScale  factor on the file's velocities
+/// @throw InputError if the file is no such PLY file, an index has no vertex, or a number is not finite
+/// Deterministic; safe to call concurrently.
+MovingMesh readMovingMesh(const std::string& path, double velocityScale);
+
+/// One line: format, elements and properties. @throw InputError if it is no PLY file
+std::string describeMeshFile(const std::string& path);
+
+}  // namespace ebru
