@@ -49,6 +49,15 @@ inline ExemplarMaps plainMaps(const Vec2i& size, const Vec3Function& encoded) {
   return maps;
 }
 
+/// Light discs on a dark ground, in the middle of the squares of a grid.
+inline ExemplarMaps discGrid(int side, int pitch, float radius) {
+  return plainMaps({side, side}, [=](int x, int y) -> Vec3f {
+    const Vec2f p(static_cast<float>(x % pitch) + 0.5f, static_cast<float>(y % pitch) + 0.5f);
+    const bool inside = (p - Vec2f::Constant(0.5f * static_cast<float>(pitch))).norm() < radius;
+    return inside ? Vec3f(0.9f, 0.6f, 0.4f) : Vec3f(0.1f, 0.1f, 0.15f);
+  });
+}
+
 /// A float EXR of scene-linear R, G, B.
 inline std::string writeMap(const std::filesystem::path& path, const Vec2i& size, const Vec3Function& linear,
                             const std::function<float(int, int)>& alpha = nullptr) {

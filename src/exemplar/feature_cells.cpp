@@ -123,6 +123,18 @@ FeatureCells::FeatureCells(const Exemplar& exemplar, const FeatureMap& features)
   }
   for (std::size_t cell = 0; cell < centre_.size(); ++cell)
     centre_[cell] = centre_[cell] / static_cast<float>(size_[cell]) + tiles_[static_cast<std::size_t>(cellTile_[cell])].origin;
+  measureReach();
+}
+
+void FeatureCells::measureReach() {
+  reach_.assign(count(), 0.0f);
+  for (const Tile& tile : tiles_)
+    for (std::size_t i = 0; i < tile.cells.size(); ++i) {
+      const auto x = static_cast<float>(i % static_cast<std::size_t>(tile.size.x()));
+      const auto y = static_cast<float>(i / static_cast<std::size_t>(tile.size.x()));
+      float& reach = reach_[tile.cells[i]];
+      reach = std::max(reach, (tile.origin + Vec2f(x + 0.5f, y + 0.5f) - centre_[tile.cells[i]]).norm());
+    }
 }
 
 std::uint32_t FeatureCells::at(int tileIndex, const Vec2f& uv) const {

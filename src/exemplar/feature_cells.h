@@ -25,10 +25,14 @@ class FeatureCells {
   int tileOf(std::uint32_t cell) const { return cellTile_[cell]; }
   /// The feature map's largest value in a cell.
   float importance(std::uint32_t cell) const { return importance_[cell]; }
+  /// The largest distance of its places from its centre, texels.
+  float reach(std::uint32_t cell) const { return reach_[cell]; }
   /// Number of texels.
   std::uint32_t size(std::uint32_t cell) const { return size_[cell]; }
 
  private:
+  void measureReach();
+
   struct Tile {
     Vec2f origin;
     Vec2i size;
@@ -36,7 +40,7 @@ class FeatureCells {
   };
   std::vector<Tile> tiles_;
   std::vector<Vec2f> centre_;
-  std::vector<float> importance_;
+  std::vector<float> importance_, reach_;
   std::vector<std::uint32_t> size_;
   std::vector<int> cellTile_;
 };

@@ -80,8 +80,8 @@ TEST_P(EveryMethod, CoversEveryPointWithFiniteValues) {
   });
 }
 
-// Both methods so far keep texture particles as their state.
 TEST_P(EveryMethod, ParticlesHaveUnitFramesAndStableIds) {
+  if (!test::hasParticles(GetParam())) GTEST_SKIP() << "no particles";
   onEveryAnimal(test::discs, [&] {
     std::map<std::uint32_t, Vec3f> before;
     std::uint32_t nextId = 0;
@@ -186,7 +186,7 @@ TEST_P(OnOneAnimal, AHeldFieldDoesNotChange) {
     ASSERT_TRUE(test::identical(first->lookup(points[i]), samples[i]));
 }
 
-// Upper and lower side of a sheet of two texels slide in opposite directions: no particle is seen on both.
+// Upper and lower side of a sheet of two texels slide in opposite directions: no particle or patch is seen on both.
 TEST_P(OnOneAnimal, NothingBleedsThroughAThinSheet) {
   const zoo::Fluid fluid = zoo::thinSheet();
   const std::unique_ptr<TextureMethod> m = started(fluid);
@@ -194,13 +194,15 @@ TEST_P(OnOneAnimal, NothingBleedsThroughAThinSheet) {
     if (k) m->advance(*fluid.frames[k - 1], *fluid.frames[k]);
     std::set<float> above, below;
     for (const SurfacePoint& p : test::surfacePoints(fluid.frames[k]->mesh))
-      if (std::abs(p.normal.z()) > 0.99f)
+      // A patch may lie over the rim of the sheet, half a metre from the middle.
+      if (std::abs(p.normal.z()) > 0.99f && (test::hasParticles(GetParam()) || p.position.head<2>().norm() < 0.25f))
         (p.normal.z() > 0.0f ? above : below).insert(m->field()->lookup(p).id);
-    EXPECT_GT(above.size(), 200u);
-    EXPECT_GT(below.size(), 200u);
+    const std::size_t least = test::hasParticles(GetParam()) ? 200 : 3;
+    EXPECT_GT(above.size(), least);
+    EXPECT_GT(below.size(), least);
     std::vector<float> both;
     std::set_intersection(above.begin(), above.end(), below.begin(), below.end(), std::back_inserter(both));
-    EXPECT_TRUE(both.empty()) << both.size() << " particles on both sides in frame " << k;
+    EXPECT_TRUE(both.empty()) << both.size() << " on both sides in frame " << k;
   }
 }
 

@@ -132,15 +132,22 @@ inline float texelFor(const zoo::Fluid& fluid, double wantedParticles = 1200.0) 
 inline std::vector<std::string> methodVariants() {
   std::vector<std::string> names;
   for (const TextureMethodInfo& method : textureMethods()) names.push_back(method.name);
-  names.push_back("synthesis_through_grid");
+  for (const char* variant : {"synthesis_through_grid", "erosion_by_texel", "erosion_one_by_one", "erosion_blended"})
+    names.emplace_back(variant);
   return names;
 }
 
 inline void choose(const std::string& variant, TextureOptions& options) {
-  const std::size_t end = variant.find("_through_grid");
-  options.method = variant.substr(0, end);
-  if (end != std::string::npos) options.transport = "grid";
+  options.method = variant.substr(0, variant.find('_'));
+  if (variant.ends_with("_through_grid")) options.transport = "grid";
+  options.erosion.radius = 6.0;  // several patches to a surface of the zoo
+  if (variant.ends_with("_by_texel")) options.erosion.unit = "texel";
+  if (variant.ends_with("_one_by_one")) options.erosion.placement = "one_by_one";
+  if (variant.ends_with("_blended")) options.erosion.fade = "alpha";
 }
+
+/// Whether a method's state is texture particles.
+inline bool hasParticles(const std::string& variant) { return !variant.starts_with("erosion"); }
 
 /// Tests of one method after another, on fluids of the zoo.
 class EachMethod : public ::testing::TestWithParam<std::string> {

@@ -22,7 +22,7 @@ struct PatchIdentity {
 /// By how much a feature of the exemplar is kept on a patch; see PatchErosion.
 struct CellMargin {
   std::uint32_t cell;  ///< of FeatureCells
-  float margin;
+  float margin;         ///< negative: eroded; not a number: its places are judged one by one
 };
 
 /// A deformable lapped patch [Gagnon 2021, sec. 4]: an open triangle mesh that was copied from the surface, flattened once, and

@@ -191,6 +191,8 @@ void ErosionMethod::checkCount(const FluidFrame& frame, std::size_t count) const
 
 void ErosionMethod::publish() {
   const PhaseTimer timer(times_, "index");
+  // By what is seen in this frame, as after loading its state.
+  parallelFor(patches_.size(), 16, [&](std::size_t i) { texture_->erosion.judge(patches_[i]); });
   field_ = std::make_shared<const ErosionField>(texture_, std::make_shared<const PatchLayers>(patches_));
 }
 
@@ -202,7 +204,7 @@ void ErosionMethod::save(StateWriter& writer) const {
 void ErosionMethod::load(const StateReader& reader) {
   patches_ = loadPatches(reader);
   nextId_ = reader.value<std::uint32_t>("nextId");
-  parallelFor(patches_.size(), 16, [&](std::size_t i) { judge(patches_[i]); });
+  parallelFor(patches_.size(), 16, [&](std::size_t i) { measure(plan_.radiusWorld, plan_.maxDistortion, patches_[i]); });
   publish();
 }
 

@@ -1,5 +1,7 @@
 #include "texturing/erosion/patch_erosion.h"
 
+#include <limits>
+
 namespace ebru {
 namespace {
 
@@ -35,19 +37,27 @@ void PatchErosion::judge(DeformablePatch& patch) const {
       quality += parts[end].quality;
       cut |= parts[end].cut;
     }
-    quality = cut ? 0.0f : quality / static_cast<float>(end - i);
-    if (quality < freshQuality && !std::binary_search(patch.seen.begin(), patch.seen.end(), parts[i].cell)) quality = 0.0f;
-    patch.cells.push_back({parts[i].cell, std::sqrt(cellTerm(patch, parts[i].cell)) / patch.largestTerm - epsilon_ - (1.0f - quality)});
+    const std::uint32_t cell = parts[i].cell;
+    quality /= static_cast<float>(end - i);
+    const bool hidden = !std::binary_search(patch.seen.begin(), patch.seen.end(), cell);
+    float margin = std::sqrt(cellTerm(patch, cell)) / patch.largestTerm - epsilon_ - (1.0f - quality);
+    if (cut) margin = divisible(patch, cell) ? std::numeric_limits<float>::quiet_NaN() : -1.0f;
+    if (!cut && hidden && quality < freshQuality) margin = -1.0f;
+    patch.cells.push_back({cell, margin});
     i = end;
   }
 }
 
+bool PatchErosion::divisible(const PatchIdentity& patch, std::uint32_t cell) const {
+  return cells_->reach(cell) * texelWorld_ > 0.5f * radiusWorld_ || cell == cells_->at(patch.tile, patch.centreSt);
+}
+
 float PatchErosion::largestTerm(const PatchIdentity& patch) const {
   float largest = 0.0f;
-  const float radius = radiusWorld_ / texelWorld_;
-  for (float y = -radius; y <= radius; y += 2.0f)
-    for (float x = -radius; x <= radius; x += 2.0f) {
-      const Vec2f place(x, y);
+  const int half = static_cast<int>(0.5f * radiusWorld_ / texelWorld_);
+  for (int y = -half; y <= half; ++y)
+    for (int x = -half; x <= half; ++x) {
+      const Vec2f place(2.0f * static_cast<float>(x), 2.0f * static_cast<float>(y));
       const float nearness = nearnessOf(place * texelWorld_);
       if (!(nearness > 0.0f) || nearness + 1.0f < largest) continue;
       const Vec2f st = patch.centreSt + place;

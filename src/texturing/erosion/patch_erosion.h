@@ -12,8 +12,9 @@ namespace ebru {
 /// Which places of a patch are eroded [Gagnon 2021, sec. 5.2]: those where
 ///     sqrt(F + D) / max sqrt(F + D) - epsilon < 1 - w,
 /// F the feature map, D the place's nearness to the centre, w the weight of eq. 3.
-/// With cells, whole features are: F is a feature's importance, D is taken at its middle and w is the mean quality on it, 0 if
-/// the rim of the patch cuts it. A feature that was hidden in the frame before comes out only while it is hardly distorted: else it
+/// With cells, whole features are: F is a feature's importance, D is taken at its middle and w is the mean quality on it. One that
+/// the rim of the patch cuts is eroded, but for large ones, of which a patch does not hold many, and the one in the middle: their
+/// places are judged one by one, as are those of cells smaller than the triangles. A feature that was hidden in the frame before comes out only while it is hardly distorted: else it
 /// would go again soon. Refers to the maps. Const members are safe to call concurrently.
 class PatchErosion {
  public:
@@ -25,7 +26,8 @@ class PatchErosion {
   /// @param judged  cells of the patch, if it has them
   /// @param rest  as in DeformablePatch
   float margin(const PatchIdentity& patch, std::span<const CellMargin> judged, const Vec2f& rest, float weight) const {
-    if (cells_) return cellMargin(patch, judged, rest, weight);
+    const std::size_t cell = judgedPlace(patch, judged, rest);
+    if (cell < judged.size() && !std::isnan(judged[cell].margin)) return judged[cell].margin;
     const float nearness = nearnessOf(rest), least = std::sqrt(nearness) / patch.largestTerm - epsilon_ - (1.0f - weight);
     // Most places are kept whatever the feature map says.
     if (least >= 0.0f) return least;
@@ -57,12 +59,8 @@ class PatchErosion {
   float cellTerm(const PatchIdentity& patch, std::uint32_t cell) const {
     return cells_->importance(cell) + nearnessOf((cells_->centre(cell) - patch.centreSt) * texelWorld_);
   }
-  float cellMargin(const PatchIdentity& patch, std::span<const CellMargin> judged, const Vec2f& rest, float weight) const {
-    const std::size_t place = judgedPlace(patch, judged, rest);
-    if (place < judged.size()) return judged[place].margin;
-    // Smaller than the triangles.
-    return std::sqrt(cellTerm(patch, cells_->at(patch.tile, placeOf(patch, rest)))) / patch.largestTerm - epsilon_ - (1.0f - weight);
-  }
+  /// Whether a cell that the rim cuts may be eroded in part.
+  bool divisible(const PatchIdentity& patch, std::uint32_t cell) const;
 
   const FeatureMap& features_;
   const FeatureCells* cells_;
