@@ -41,6 +41,41 @@ TriangleMesh halved(const TriangleMesh& mesh) {
 
 }  // namespace
 
+std::vector<unsigned char> rimVertices(std::span<const Vec3i> triangles, std::size_t vertexCount) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * triangles.size());
+  for (const Vec3i& t : triangles)
+    for (int c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(t[c], t[(c + 1) % 3]);
+      edges.push_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high));
+    }
+  std::sort(edges.begin(), edges.end());
+  std::vector<unsigned char> rim(vertexCount, 0);
+  for (std::size_t e = 0; e < edges.size();) {
+    std::size_t end = e + 1;
+    while (end < edges.size() && edges[end] == edges[e]) ++end;
+    if (end == e + 1) rim[edges[e] >> 32] = rim[edges[e] & 0xffffffffu] = 1;
+    e = end;
+  }
+  return rim;
+}
+
+SurfaceRim::SurfaceRim(const TriangleMesh& mesh)
+    : reachWorld_(std::max(1e-12f, 1.5f * meanEdge(mesh))), grid_(reachWorld_, 256) {
+  const std::vector<unsigned char> rim = rimVertices(mesh.triangles, mesh.positions.size());
+  for (std::size_t v = 0; v < rim.size(); ++v) {
+    if (!rim[v]) continue;
+    grid_.insert(static_cast<std::uint32_t>(places_.size()), mesh.positions[v]);
+    places_.push_back(mesh.positions[v]);
+  }
+}
+
+bool SurfaceRim::near(const Vec3f& pWorld) const {
+  return !empty() && grid_.anyNear(pWorld, reachWorld_, [&](std::uint32_t i) {
+    return (places_[i] - pWorld).squaredNorm() < reachWorld_ * reachWorld_;
+  });
+}
+
 PieceCutter::PieceCutter(const TriangleMesh& mesh) : mesh_(mesh), firstOfVertex_(mesh.positions.size() + 1, 0) {
   for (const Vec3i& t : mesh.triangles)
     for (int c = 0; c < 3; ++c) ++firstOfVertex_[static_cast<std::size_t>(t[c]) + 1];

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/vec.h"
 #include "fluid/triangle_mesh.h"
+#include "surface/cell_grid.h"
 
 namespace ebru {
 
@@ -13,6 +15,9 @@ struct SurfacePiece {
   std::vector<std::uint32_t> vertices;   ///< of the mesh, in the order of first use
   std::vector<Vec3i> triangles;          ///< into `vertices`; the first is the one it grew from
 };
+
+/// Per vertex, 1 where it lies on an edge of only one triangle, else 0.
+std::vector<unsigned char> rimVertices(std::span<const Vec3i> triangles, std::size_t vertexCount);
 
 /// Cuts pieces out of a mesh. Refers to the mesh. Const members are safe to call concurrently, each thread with its own
 /// Scratch.
@@ -37,6 +42,20 @@ class PieceCutter {
   const TriangleMesh& mesh_;
   std::vector<std::uint32_t> firstOfVertex_;  ///< into trianglesOfVertex_; one more than vertices
   std::vector<std::uint32_t> trianglesOfVertex_;
+};
+
+/// Where an open surface ends: vertices on edges of only one triangle. Const members are safe to call concurrently.
+class SurfaceRim {
+ public:
+  explicit SurfaceRim(const TriangleMesh& mesh);
+  bool empty() const { return places_.empty(); }
+  /// Whether a place is within about one and a half edges of the end.
+  bool near(const Vec3f& pWorld) const;
+
+ private:
+  std::vector<Vec3f> places_;
+  float reachWorld_;
+  CellGrid grid_;
 };
 
 /// Every triangle in four, its edges halved, as often as it takes until the mean edge is no longer than `edgeWorld`. New

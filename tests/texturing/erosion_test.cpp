@@ -24,6 +24,7 @@ DeformablePatch flatPatch(int n = 20, const Vec2f& centre = Vec2f::Zero()) {
       patch.position.emplace_back(p.x() + centre.x(), p.y() + centre.y(), 0.0f);
       patch.rest.emplace_back(p.x(), -p.y());  // v down
     }
+  patch.atEnd.assign(patch.position.size(), 0);
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
       const int a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
@@ -67,6 +68,24 @@ TEST(DeformablePatch, QualityFallsWithStretchAsInEquationOne) {
   EXPECT_EQ(*std::max_element(turnedOver.quality.begin(), turnedOver.quality.end()), 0.0f);
 }
 
+// Where the surface itself ends, stones may be cut: that is no rim of the patch.
+TEST(DeformablePatch, SurfaceEndIsNoRim) {
+  DeformablePatch patch = flatPatch();
+  TriangleMesh surface;  // ends at x = 0.5, goes on elsewhere
+  surface.positions = {Vec3f(-9, -9, 0), Vec3f(0.5f, -9, 0), Vec3f(0.5f, 9, 0), Vec3f(-9, 9, 0)};
+  for (float y = -0.6f; y < 0.6f; y += 0.02f) {
+    const int first = static_cast<int>(surface.positions.size());
+    for (const Vec3f& p : {Vec3f(0.5f, y, 0), Vec3f(0.5f, y + 0.02f, 0), Vec3f(0.48f, y, 0)}) surface.positions.push_back(p);
+    surface.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  EXPECT_TRUE(noteEnds(SurfaceRim(surface), patch));
+  EXPECT_FALSE(noteEnds(SurfaceRim(surface), patch));
+  measure(radius, 3.0f, patch);
+  EXPECT_EQ(patch.rim[vertexAt(patch, Vec2f(0.5f, 0.1f))], 0);
+  EXPECT_EQ(patch.rim[vertexAt(patch, Vec2f(-0.5f, 0.1f))], 1);
+  EXPECT_GT(patch.weight[vertexAt(patch, Vec2f(0.45f, 0.0f))], 0.9f);
+}
+
 /// A patch copied from the top of a slab.
 class PatchOnSlab : public ::testing::Test {
  protected:
@@ -93,7 +112,7 @@ class PatchOnSlab : public ::testing::Test {
     return best;
   }
   DeformablePatch made(float x = 0.0f, float y = 0.0f, std::uint32_t id = 0) const {
-    return PatchMaker(*frame_, frame_->mesh, exemplar_, erosion_, plan_).make(top(x, y), id);
+    return PatchMaker(*frame_, frame_->mesh, SurfaceRim(frame_->mesh), exemplar_, erosion_, plan_).make(top(x, y), id);
   }
 
   std::shared_ptr<const FluidFrame> frame_;

@@ -34,26 +34,6 @@ float distortionOf(const DeformablePatch& patch, const Vec3i& triangle, float& a
   return std::max(largest, smallest > 0.0f ? 1.0f / smallest : std::numeric_limits<float>::infinity());
 }
 
-/// Per vertex, whether it lies on an edge of only one triangle.
-std::vector<unsigned char> rimOf(const DeformablePatch& patch) {
-  std::vector<std::uint64_t> edges;
-  edges.reserve(3 * patch.triangles.size());
-  for (const Vec3i& t : patch.triangles)
-    for (int c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(t[c], t[(c + 1) % 3]);
-      edges.push_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high));
-    }
-  std::sort(edges.begin(), edges.end());
-  std::vector<unsigned char> rim(patch.position.size(), 0);
-  for (std::size_t e = 0; e < edges.size();) {
-    std::size_t end = e + 1;
-    while (end < edges.size() && edges[end] == edges[e]) ++end;
-    if (end == e + 1) rim[edges[e] >> 32] = rim[edges[e] & 0xffffffffu] = 1;
-    e = end;
-  }
-  return rim;
-}
-
 /// Per vertex, 1 on the rim to 0 where it is `rimWidth` away, measured in the flattened patch.
 std::vector<float> rimNearness(const DeformablePatch& patch, float radiusWorld) {
   std::vector<Vec2f> places;
@@ -85,9 +65,11 @@ void keep(const std::vector<unsigned char>& kept, DeformablePatch& patch) {
     if (place[v] < 0) continue;
     place[v] = static_cast<int>(vertices);
     patch.position[vertices] = patch.position[v];
+    patch.atEnd[vertices] = patch.atEnd[v];
     patch.rest[vertices++] = patch.rest[v];
   }
   patch.position.resize(vertices);
+  patch.atEnd.resize(vertices);
   patch.rest.resize(vertices);
   for (Vec3i& t : patch.triangles)
     for (int c = 0; c < 3; ++c) t[c] = place[static_cast<std::size_t>(t[c])];
@@ -124,10 +106,10 @@ void measure(float radiusWorld, float maxDistortion, DeformablePatch& patch) {
       areas[v] += area;
     }
   }
-  patch.rim = rimOf(patch);
+  patch.rim = rimVertices(patch.triangles, patch.position.size());
   for (std::size_t v = 0; v < patch.rim.size(); ++v) {
     patch.quality[v] = areas[v] > 0.0f ? patch.quality[v] / areas[v] : 0.0f;
-    if (patch.rest[v].norm() <= centreRadius * radiusWorld) patch.rim[v] = 0;
+    if (patch.rest[v].norm() <= centreRadius * radiusWorld || patch.atEnd[v]) patch.rim[v] = 0;
   }
   patch.weight = rimNearness(patch, radiusWorld);
   for (std::size_t v = 0; v < patch.weight.size(); ++v) patch.weight[v] = patch.quality[v] * (1.0f - patch.weight[v]);
@@ -158,11 +140,24 @@ bool carry(const Flow& flow, const FluidFrame& to, float radiusWorld, Deformable
   return true;
 }
 
+bool noteEnds(const SurfaceRim& rim, DeformablePatch& patch) {
+  patch.atEnd.resize(patch.position.size(), 0);
+  if (rim.empty()) return false;
+  bool changed = false;
+  for (std::size_t v = 0; v < patch.position.size(); ++v) {
+    const unsigned char now = rim.near(patch.position[v]);
+    changed |= now != patch.atEnd[v];
+    patch.atEnd[v] = now;
+  }
+  return changed;
+}
+
 void savePatches(const std::vector<DeformablePatch>& patches, StateWriter& writer) {
   std::vector<PatchIdentity> identities;
   std::vector<std::uint32_t> vertexCounts, triangleCounts, seenCounts, seen;
   std::vector<Vec3f> position;
   std::vector<Vec2f> rest;
+  std::vector<unsigned char> atEnd;
   std::vector<Vec3i> triangles;
   for (const DeformablePatch& patch : patches) {
     identities.push_back(patch);
@@ -172,6 +167,7 @@ void savePatches(const std::vector<DeformablePatch>& patches, StateWriter& write
     seen.insert(seen.end(), patch.seen.begin(), patch.seen.end());
     position.insert(position.end(), patch.position.begin(), patch.position.end());
     rest.insert(rest.end(), patch.rest.begin(), patch.rest.end());
+    atEnd.insert(atEnd.end(), patch.atEnd.begin(), patch.atEnd.end());
     triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
   }
   writer.array("patch", identities);
@@ -181,6 +177,7 @@ void savePatches(const std::vector<DeformablePatch>& patches, StateWriter& write
   writer.array("seen", seen);
   writer.array("position", position);
   writer.array("rest", rest);
+  writer.array("atEnd", atEnd);
   writer.array("triangles", triangles);
 }
 
@@ -191,6 +188,7 @@ std::vector<DeformablePatch> loadPatches(const StateReader& reader) {
   const auto seenCounts = reader.array<std::uint32_t>("seenCount"), seen = reader.array<std::uint32_t>("seen");
   const auto position = reader.array<Vec3f>("position");
   const auto rest = reader.array<Vec2f>("rest");
+  const auto atEnd = reader.array<unsigned char>("atEnd");
   const auto triangles = reader.array<Vec3i>("triangles");
   std::vector<DeformablePatch> patches(identities.size());
   std::ptrdiff_t vertex = 0, triangle = 0, cell = 0;
@@ -202,6 +200,7 @@ std::vector<DeformablePatch> loadPatches(const StateReader& reader) {
     cell = cellEnd;
     patches[i].position.assign(position.begin() + vertex, position.begin() + vertexEnd);
     patches[i].rest.assign(rest.begin() + vertex, rest.begin() + vertexEnd);
+    patches[i].atEnd.assign(atEnd.begin() + vertex, atEnd.begin() + vertexEnd);
     patches[i].triangles.assign(triangles.begin() + triangle, triangles.begin() + triangleEnd);
     vertex = vertexEnd;
     triangle = triangleEnd;

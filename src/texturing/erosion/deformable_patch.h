@@ -6,6 +6,7 @@
 #include "core/vec.h"
 #include "fluid/flow.h"
 #include "io/state_file.h"
+#include "surface/surface_piece.h"
 
 namespace ebru {
 
@@ -31,11 +32,12 @@ struct DeformablePatch : PatchIdentity {
   std::vector<Vec3f> position;   ///< world, metres
   std::vector<Vec2f> rest;       ///< flattened, metres from the centre, in the exemplar's axes (v down)
   std::vector<Vec3i> triangles;  ///< counter-clockwise from outside
+  std::vector<unsigned char> atEnd;  ///< per vertex, 1 where the surface itself ends: no rim of the patch
   std::vector<std::uint32_t> seen;  ///< cells of it that were seen in the last frame, ascending
 
   /// Of the present shape; see `measure`.
   std::vector<float> quality;     ///< per vertex, Q_V of eq. 1, in [0, 1]
-  std::vector<unsigned char> rim;  ///< per vertex, 1 on the rim farther than r/4 from the centre
+  std::vector<unsigned char> rim;  ///< per vertex, 1 on the rim, but for what is within r/4 of the centre or at the surface's end
   std::vector<float> weight;      ///< per vertex, w_V of eq. 3, in [0, 1]
   std::vector<float> distortion;  ///< per triangle, max(s1, 1/s2) of d(rest)/d(position); infinite where it is turned over
   std::vector<CellMargin> cells;  ///< of features, ascending by cell; empty where places are eroded one by one
@@ -50,6 +52,9 @@ void measure(float radiusWorld, float maxDistortion, DeformablePatch& patch);
 /// triangles that lie on it upside down. Where flow and surface rest, nothing is written.
 /// The measures are not brought along. @return whether anything changed
 bool carry(const Flow& flow, const FluidFrame& to, float radiusWorld, DeformablePatch& patch);
+
+/// Notes which vertices lie where the surface ends. @return whether that changed
+bool noteEnds(const SurfaceRim& rim, DeformablePatch& patch);
 
 /// All patches as flat arrays, without their measures.
 void savePatches(const std::vector<DeformablePatch>& patches, StateWriter& writer);

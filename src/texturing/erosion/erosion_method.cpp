@@ -14,7 +14,7 @@
 namespace ebru {
 namespace {
 
-constexpr float radiusFeatures = 3.0f;
+constexpr float radiusFeatures = 5.0f;
 /// Patches are copied from triangles whose edges are at most so long, in radii: a coarser surface is refined first.
 constexpr float longestEdge = 0.2f;
 /// Of a patch, what is counted on where places for patches are chosen, in radii.
@@ -63,7 +63,7 @@ class ErosionMethod : public TextureMethod {
   void carryAll(const FluidFrame& from, const FluidFrame& to);
   /// Drops patches that are not seen and covers what has no texture.
   void coverFrame(const FluidFrame& frame);
-  void fillHoles(const FluidFrame& frame, const TriangleMesh& mesh, std::vector<SurfacePlace> holes);
+  void fillHoles(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim, std::vector<SurfacePlace> holes);
   std::vector<SurfacePlace> nextPlaces(const std::vector<SurfacePlace>& holes, bool bare) const;
   std::vector<DeformablePatch> makePatches(const PatchMaker& maker, const std::vector<SurfacePlace>& places);
   void checkCount(const FluidFrame& frame, std::size_t count) const;
@@ -114,12 +114,13 @@ void ErosionMethod::advance(const FluidFrame& from, const FluidFrame& to, Frames
 
 void ErosionMethod::carryAll(const FluidFrame& from, const FluidFrame& to) {
   const Flow flow(&from, &to);
+  const SurfaceRim rim(to.mesh);
   parallelFor(patches_.size(), 4, [&](std::size_t i) {
     DeformablePatch& patch = patches_[i];
     patch.presence = std::min(1.0f, patch.presence + 1.0f / fadeInFrames);
-    if (!carry(flow, to, plan_.radiusWorld, patch)) return;
-    patch.age += 1.0f;
-    judge(patch);
+    const bool moved = carry(flow, to, plan_.radiusWorld, patch);
+    if (moved) patch.age += 1.0f;
+    if (noteEnds(rim, patch) || moved) judge(patch);
   });
 }
 
@@ -129,6 +130,7 @@ void ErosionMethod::coverFrame(const FluidFrame& frame) {
     return;
   }
   const TriangleMesh mesh = refinedMesh(frame.mesh, longestEdge * plan_.radiusWorld);
+  const SurfaceRim rim(frame.mesh);
   Coverage found;
   {
     const PhaseTimer timer(times_, "coverage");
@@ -137,12 +139,13 @@ void ErosionMethod::coverFrame(const FluidFrame& frame) {
     keepSeen(found, layers, patches_);
   }
   const PhaseTimer timer(times_, "synthesis");
-  fillHoles(frame, mesh, std::move(found.holes));
+  fillHoles(frame, mesh, rim, std::move(found.holes));
 }
 
-void ErosionMethod::fillHoles(const FluidFrame& frame, const TriangleMesh& mesh, std::vector<SurfacePlace> holes) {
+void ErosionMethod::fillHoles(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim,
+                              std::vector<SurfacePlace> holes) {
   if (holes.empty()) return;
-  const PatchMaker maker(frame, mesh, *texture_->exemplar, texture_->erosion, plan_);
+  const PatchMaker maker(frame, mesh, rim, *texture_->exemplar, texture_->erosion, plan_);
   bool bare = patches_.empty();
   while (!holes.empty()) {
     const std::vector<SurfacePlace> places = nextPlaces(holes, bare);

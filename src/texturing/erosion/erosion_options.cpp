@@ -7,7 +7,7 @@ OptionFields fields(ErosionOptions& o) {
       {.key = "radius",
        .target = &o.radius,
        .unit = "texel",
-       .help = "of a patch (Gagnon 2021, sec. 4); 0: three times the exemplar's feature size, as far as a patch fits the exemplar",
+       .help = "of a patch (Gagnon 2021, sec. 4); 0: five times the exemplar's feature size, as far as a patch fits the exemplar",
        .lower = 0.0,
        .upper = 1e4},
       {.key = "max_distortion",

@@ -21,14 +21,15 @@ Vec3f barycentrics(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& 
 
 }  // namespace
 
-PatchMaker::PatchMaker(const FluidFrame& frame, const TriangleMesh& mesh, const Exemplar& exemplar, const PatchErosion& erosion,
-                       const PatchPlan& plan)
+PatchMaker::PatchMaker(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim, const Exemplar& exemplar,
+                       const PatchErosion& erosion, const PatchPlan& plan)
     : frame_(frame),
       mesh_(mesh),
       exemplar_(exemplar),
       erosion_(erosion),
       plan_(plan),
       cutter_(mesh),
+      rim_(rim),
       scratch_([] { return PieceCutter::Scratch(); }) {}
 
 DeformablePatch PatchMaker::make(const SurfacePlace& centre, std::uint32_t id) const {
@@ -50,6 +51,7 @@ DeformablePatch PatchMaker::make(const SurfacePlace& centre, std::uint32_t id) c
   patch.centreSt = exemplar_.clampInside(erosion_.centreNear(patch.tile, anywhere), plan_.radiusWorld / plan_.texelWorld);
   patch.largestTerm = erosion_.largestTerm(patch);
   flatten(centre, plan_.randomOrientation ? 2.0f * std::numbers::pi_v<float> * random.uniform() : 0.0f, patch);
+  noteEnds(rim_, patch);
   measure(plan_.radiusWorld, plan_.maxDistortion, patch);
   erosion_.judge(patch);
   return patch;

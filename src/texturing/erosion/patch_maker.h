@@ -29,7 +29,7 @@ struct PatchPlan {
 /// Copies patches from the surface of one frame [Gagnon 2021, sec. 4]. Refers to its arguments. `make` may be called concurrently.
 class PatchMaker {
  public:
-  PatchMaker(const FluidFrame& frame, const TriangleMesh& mesh, const Exemplar& exemplar, const PatchErosion& erosion,
+  PatchMaker(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim, const Exemplar& exemplar, const PatchErosion& erosion,
              const PatchPlan& plan);
 
   /// A patch around `centre`, a place of the mesh: flattened by a least squares conformal map, the centre at 0, showing a
@@ -45,6 +45,7 @@ class PatchMaker {
   const PatchErosion& erosion_;
   PatchPlan plan_;
   PieceCutter cutter_;
+  const SurfaceRim& rim_;
   mutable PerThread<PieceCutter::Scratch> scratch_;
 };
 
