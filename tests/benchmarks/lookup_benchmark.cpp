@@ -32,6 +32,12 @@ void LookupParticles(benchmark::State& state) {
   lookUps(state, points().size(), [&](std::size_t i) { return shared->lookup(points()[i]); });
 }
 
+/// The oldest patch that is not eroded, one look-up in the exemplar.
+void LookupErosion(benchmark::State& state) {
+  const auto shared = field("erosion");
+  lookUps(state, points().size(), [&](std::size_t i) { return shared->lookup(points()[i]); });
+}
+
 /// A look-up in the exemplar alone.
 void ExemplarSample(benchmark::State& state) {
   const Exemplar& e = *exemplar();
@@ -99,6 +105,7 @@ void FlowForward(benchmark::State& state) {
 }
 
 BENCHMARK(LookupSynthesis);
+BENCHMARK(LookupErosion);
 BENCHMARK(LookupParticles);
 BENCHMARK(ExemplarSample);
 BENCHMARK(WindowSearch)->ArgNames({"window", "bounded"})->ArgsProduct({{9, 17}, {0, 1}});

@@ -57,13 +57,15 @@ std::shared_ptr<const Exemplar> exemplar() {
   return shared;
 }
 
-std::unique_ptr<TextureMethod> method(const char* name) {
+TextureOptions methodOptions(const char* name) {
   TextureOptions options;
   options.method = name;
   options.exemplar = {exemplarPath()};
   options.texel_size = static_cast<double>(texelWorld);
-  return makeTextureMethod(options, 1, nullptr);
+  return options;
 }
+
+std::unique_ptr<TextureMethod> method(const char* name) { return makeTextureMethod(methodOptions(name), 1, nullptr); }
 
 std::unique_ptr<TextureMethod> methodWith(const char* name, double particleCount) {
   TextureOptions options;

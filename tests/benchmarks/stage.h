@@ -26,6 +26,7 @@ const FluidFrame& to();
 const FluidFrame& frame(int number);
 std::shared_ptr<const Exemplar> exemplar();
 /// With the shot's exemplar and texel size.
+TextureOptions methodOptions(const char* name);
 std::unique_ptr<TextureMethod> method(const char* name);
 /// With about `particleCount` particles on frame 12 and the exemplar leaf_litter.
 std::unique_ptr<TextureMethod> methodWith(const char* name, double particleCount);

@@ -94,7 +94,7 @@ class PatchOnSlab : public ::testing::Test {
         exemplar_(64, 64, test::texelsOf(64, test::discs)),
         features_(exemplar_, FeatureSource::distance),
         plan_{.texelWorld = 0.01f, .radiusWorld = 0.3f, .maxDistortion = 3.0f, .randomOrientation = false, .seed = 1},
-        erosion_(features_, nullptr, plan_.radiusWorld, plan_.texelWorld, 0.1f) {}
+        erosion_(features_, nullptr, plan_.radiusWorld, plan_.texelWorld, 0.1f, 0.0f) {}
 
   SurfacePlace top(float x, float y) const {
     const TriangleMesh& mesh = frame_->mesh;
@@ -185,7 +185,7 @@ TEST_F(PatchOnSlab, SavedAndLoadedIsTheSame) {
 TEST(PatchErosion, FollowsTheCriterion) {
   const Exemplar exemplar(64, 64, test::texelsOf(64, test::constantTexel));
   const FeatureMap features(exemplar, FeatureSource::distance);
-  const PatchErosion erosion(features, nullptr, radius, 0.02f, 0.1f);
+  const PatchErosion erosion(features, nullptr, radius, 0.02f, 0.1f, 0.0f);
   PatchIdentity patch;
   patch.centreSt = Vec2f(32.0f, 32.0f);
   patch.largestTerm = erosion.largestTerm(patch);
@@ -193,9 +193,25 @@ TEST(PatchErosion, FollowsTheCriterion) {
   for (const float distance : {0.0f, 0.2f, 0.45f})
     for (const float weight : {1.0f, 0.5f, 0.25f, 0.1f}) {
       const float term = std::sqrt(2.0f - distance / radius) / patch.largestTerm - 0.1f;
-      const float margin = erosion.margin(patch, {}, Vec2f(distance, 0.0f), weight);
+      const float margin = erosion.keeping(patch, {}, Vec2f(distance, 0.0f), weight).margin;
       EXPECT_EQ(margin >= 0.0f, term >= 1.0f - weight) << distance << " " << weight;
     }
+}
+
+// Opacity falls from 1 to 0 as the margin falls from the softness to 0, and there is none without softness.
+TEST(PatchErosion, FadesWithItsMargin) {
+  const Exemplar exemplar(64, 64, test::texelsOf(64, test::constantTexel));
+  const FeatureMap features(exemplar, FeatureSource::distance);
+  const PatchErosion hard(features, nullptr, radius, 0.02f, 0.1f, 0.0f), soft(features, nullptr, radius, 0.02f, 0.1f, 0.2f);
+  PatchIdentity patch;
+  patch.centreSt = Vec2f(32.0f, 32.0f);
+  patch.largestTerm = hard.largestTerm(patch);
+  // In the middle the term is 1 - 0.1.
+  for (const float margin : {-0.05f, 0.05f, 0.1f, 0.15f, 0.25f, 0.5f}) {
+    const float weight = 1.0f - (0.9f - margin);
+    EXPECT_EQ(hard.keeping(patch, {}, Vec2f::Zero(), weight).opacity, margin < 0.0f ? 0.0f : 1.0f);
+    EXPECT_NEAR(soft.keeping(patch, {}, Vec2f::Zero(), weight).opacity, std::clamp(margin / 0.2f, 0.0f, 1.0f), 0.02f);
+  }
 }
 
 /// Discs as features, the patch's middle on one of them.
@@ -205,12 +221,12 @@ class WholeFeatures : public ::testing::Test {
       : exemplar_({test::discGrid(96, 24, 8.0f)}),
         features_(exemplar_, FeatureSource::distance),
         cells_(exemplar_, features_),
-        erosion_(features_, &cells_, radius, 0.0125f, 0.1f),
+        erosion_(features_, &cells_, radius, 0.0125f, 0.1f, 0.0f),
         patch_(flatPatch(40)) {
     patch_.centreSt = erosion_.centreNear(0, Vec2f(36.0f, 60.0f));
     patch_.largestTerm = erosion_.largestTerm(patch_);
   }
-  float margin(const Vec2f& rest) const { return erosion_.margin(patch_, patch_.cells, rest, 1.0f); }
+  float margin(const Vec2f& rest) const { return erosion_.keeping(patch_, patch_.cells, rest, 1.0f).margin; }
   void judgeStretched(float stretch) {
     DeformablePatch fresh = flatPatch(40);
     patch_.position = fresh.position;

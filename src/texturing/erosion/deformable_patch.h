@@ -20,10 +20,13 @@ struct PatchIdentity {
   float largestTerm = 1.0f;        ///< maximum of sqrt(F + D) over the patch, see PatchErosion
 };
 
-/// By how much a feature of the exemplar is kept on a patch; see PatchErosion.
-struct CellMargin {
+/// How a place of a patch, or a whole feature of the exemplar on it, is kept; see PatchErosion.
+struct Keeping {
+  float margin;   ///< negative: eroded; not a number, of a feature: its places are judged one by one
+  float opacity;  ///< 0 where it is eroded, 1 where it hides what is below
+};
+struct KeptCell : Keeping {
   std::uint32_t cell;  ///< of FeatureCells
-  float margin;         ///< negative: eroded; not a number: its places are judged one by one
 };
 
 /// A deformable lapped patch [Gagnon 2021, sec. 4]: an open triangle mesh that was copied from the surface, flattened once, and
@@ -40,7 +43,7 @@ struct DeformablePatch : PatchIdentity {
   std::vector<unsigned char> rim;  ///< per vertex, 1 on the rim, but for what is within r/4 of the centre or at the surface's end
   std::vector<float> weight;      ///< per vertex, w_V of eq. 3, in [0, 1]
   std::vector<float> distortion;  ///< per triangle, max(s1, 1/s2) of d(rest)/d(position); infinite where it is turned over
-  std::vector<CellMargin> cells;  ///< of features, ascending by cell; empty where places are eroded one by one
+  std::vector<KeptCell> cells;  ///< of features, ascending by cell; empty where places are eroded one by one
 };
 
 /// Distortion of the triangles, and weights from eq. 1 to 3: the vertices' mean quality, by area, times what falls from 1 to 0 over

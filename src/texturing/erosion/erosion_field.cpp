@@ -8,11 +8,12 @@
 namespace ebru {
 
 PatchTexture::PatchTexture(std::shared_ptr<const Exemplar> exemplarToShow, FeatureMap featureMap,
-                           bool wholeFeatures, float radiusWorld, float texel, float epsilon, Showing show)
+                           bool wholeFeatures, float radiusWorld, float texel, float epsilon, float softness,
+                           Showing show)
     : exemplar(std::move(exemplarToShow)),
       features(std::move(featureMap)),
       cells(wholeFeatures ? std::optional<FeatureCells>(std::in_place, *exemplar, features) : std::nullopt),
-      erosion(features, cells ? &*cells : nullptr, radiusWorld, texel, epsilon),
+      erosion(features, cells ? &*cells : nullptr, radiusWorld, texel, epsilon, softness),
       texelWorld(texel),
       showing(show) {}
 
@@ -20,62 +21,78 @@ TextureSample ErosionField::lookup(const SurfacePoint& point) const {
   return texture_->showing == Showing::oldest ? oldest(point) : blended(point);
 }
 
-TextureSample ErosionField::oldest(const SurfacePoint& point) const {
-  PatchLayers::Layer best{};
-  float largest = -std::numeric_limits<float>::infinity();
-  const auto look = [&](const PatchLayers::Layer& layer) {
-    const float margin = texture_->erosion.margin(layers_->identity(layer.patch), layers_->cells(layer.patch), layer.rest, layer.weight);
-    if (margin > largest) {
-      largest = margin;
-      best = layer;
+/// Colours of layers, one over the other.
+class ErosionField::Blend {
+ public:
+  Blend(const ErosionField& field, float footprintWorld) : field_(field), footprintWorld_(footprintWorld) {}
+
+  void add(const PatchLayers::Layer& layer, float weight) {
+    const PatchTexture& texture = *field_.texture_;
+    const Exemplar& exemplar = *texture.exemplar;
+    const Vec2f place = field_.layers_->identity(layer.patch).centreSt + layer.rest / texture.texelWorld;
+    const float width = footprintWorld_ * layer.restPerWorld / texture.texelWorld;
+    sum_ += weight * exemplar.sampleFiltered(place, width);
+    if (exemplar.hasOtherMaps()) exemplar.addOtherMaps(place, width, weight, others_);
+    weights_ += weight;
+    if (weight > largest_) {
+      largest_ = weight;
+      strongest_ = layer;
     }
-    return margin >= 0.0f;
+  }
+
+  TextureSample sample() {
+    TextureSample sample;
+    if (weights_ == 0.0f) return sample;
+    for (Texel& other : others_) other /= weights_;
+    take(field_.texture_->exemplar->decode(sum_ / weights_, others_), sample);
+    field_.describe(strongest_, sample);
+    return sample;
+  }
+  bool empty() const { return weights_ == 0.0f; }
+
+ private:
+  const ErosionField& field_;
+  float footprintWorld_;
+  Texel sum_ = Texel::Zero();
+  OtherMaps others_ = noOtherMaps;
+  float weights_ = 0.0f, largest_ = 0.0f;
+  PatchLayers::Layer strongest_{};
+};
+
+TextureSample ErosionField::oldest(const SurfacePoint& point) const {
+  Blend blend(*this, point.footprintWorld);
+  PatchLayers::Layer leastEroded{};
+  float largest = -std::numeric_limits<float>::infinity(), through = 1.0f;
+  const auto look = [&](const PatchLayers::Layer& layer) {
+    const Keeping kept = texture_->erosion.keeping(layers_->identity(layer.patch), layers_->cells(layer.patch), layer.rest, layer.weight);
+    if (kept.opacity > 0.0f) blend.add(layer, through * kept.opacity);
+    through *= 1.0f - kept.opacity;
+    if (kept.margin > largest) {
+      largest = kept.margin;
+      leastEroded = layer;
+    }
+    return through <= 0.0f;
   };
   layers_->visit(point.position, point.normal, look);
-  TextureSample sample;
-  const bool found = largest > -std::numeric_limits<float>::infinity();
-  if (!found && !layers_->visitAround(point.position, point.normal, [&](const PatchLayers::Layer& layer) {
-        best = layer;
-        return true;
-      }))
-    return sample;
-  describe(best, sample);
-  const Exemplar& exemplar = *texture_->exemplar;
-  const PatchIdentity& patch = layers_->identity(best.patch);
-  const Vec2f place = patch.centreSt + best.rest / texture_->texelWorld;
-  const float width = point.footprintWorld * best.restPerWorld / texture_->texelWorld;
-  OtherMaps others = noOtherMaps;
-  if (exemplar.hasOtherMaps()) exemplar.addOtherMaps(place, width, 1.0f, others);
-  take(exemplar.decode(exemplar.sampleFiltered(place, width), others), sample);
-  return sample;
+  if (largest == -std::numeric_limits<float>::infinity())
+    layers_->visitAround(point.position, point.normal, [&](const PatchLayers::Layer& layer) {
+      blend.add(layer, 1.0f);
+      return true;
+    });
+  else if (blend.empty())
+    blend.add(leastEroded, 1.0f);
+  return blend.sample();
 }
 
 TextureSample ErosionField::blended(const SurfacePoint& point) const {
-  const Exemplar& exemplar = *texture_->exemplar;
-  TextureSample sample;
-  Texel sum = Texel::Zero();
-  OtherMaps others = noOtherMaps;
-  float weights = 0.0f, largest = 0.0f;
+  Blend blend(*this, point.footprintWorld);
   const auto add = [&](const PatchLayers::Layer& layer) {
-    const PatchIdentity& patch = layers_->identity(layer.patch);
-    const float weight = std::max(1e-6f, layer.weight * patch.presence);
-    const Vec2f place = patch.centreSt + layer.rest / texture_->texelWorld;
-    const float width = point.footprintWorld * layer.restPerWorld / texture_->texelWorld;
-    sum += weight * exemplar.sampleFiltered(place, width);
-    if (exemplar.hasOtherMaps()) exemplar.addOtherMaps(place, width, weight, others);
-    weights += weight;
-    if (weight > largest) {
-      largest = weight;
-      describe(layer, sample);
-    }
+    blend.add(layer, std::max(1e-6f, layer.weight * layers_->identity(layer.patch).presence));
     return false;
   };
   layers_->visit(point.position, point.normal, add);
-  if (weights == 0.0f) layers_->visitAround(point.position, point.normal, add);
-  if (weights == 0.0f) return sample;
-  for (Texel& other : others) other /= weights;
-  take(exemplar.decode(sum / weights, others), sample);
-  return sample;
+  if (blend.empty()) layers_->visitAround(point.position, point.normal, add);
+  return blend.sample();
 }
 
 /// Everything but what the exemplar's maps say.

@@ -21,13 +21,13 @@ struct PatchTexture {
 
   /// @param wholeFeatures  whether features are eroded as a whole
   PatchTexture(std::shared_ptr<const Exemplar> exemplar, FeatureMap features, bool wholeFeatures, float radiusWorld,
-               float texelWorld, float epsilon, Showing showing);
+               float texelWorld, float epsilon, float softness, Showing showing);
   PatchTexture(const PatchTexture&) = delete;
   PatchTexture& operator=(const PatchTexture&) = delete;
 };
 
 /// The texture of deformable lapped patches, resolved at the ray hit: of the patches over a point the oldest that is not
-/// eroded there [Gagnon 2021, sec. 5.1]. Where all are eroded, holes smaller than the places coverage looks at, the least eroded;
+/// eroded there [Gagnon 2021, sec. 5.1], and through it, as far as it has faded, the next. Where all are eroded, holes smaller than the places coverage looks at, the least eroded;
 /// over no patch at all, a hole. With Showing::blended the mean of all, by their weights [Gagnon 2019].
 class ErosionField : public TextureField {
  public:
@@ -36,6 +36,7 @@ class ErosionField : public TextureField {
   TextureSample lookup(const SurfacePoint& point) const override;
 
  private:
+  class Blend;
   TextureSample oldest(const SurfacePoint& point) const;
   TextureSample blended(const SurfacePoint& point) const;
   void describe(const PatchLayers::Layer& layer, TextureSample& sample) const;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float radiusFeatures = 5.0f;
 /// Patches are copied from triangles whose edges are at most so long, in radii: a coarser surface is refined first.
-constexpr float longestEdge = 0.2f;
+constexpr float longestEdge = 0.3f;
 /// Of a patch, what is counted on where places for patches are chosen, in radii.
 constexpr float countedRadius = 0.75f;
 /// Distance of the first patches, in radii.
@@ -88,7 +88,7 @@ ErosionMethod::ErosionMethod(const TextureOptions& options, std::uint64_t seed, 
   plan_.randomOrientation = options_.orientation == "random";
   plan_.seed = seed;
   texture_ = std::make_shared<const PatchTexture>(exemplar, featureMapOf(*exemplar, options_), options_.unit == "feature", plan_.radiusWorld, plan_.texelWorld,
-                                                  static_cast<float>(options_.epsilon),
+                                                  static_cast<float>(options_.epsilon), static_cast<float>(options_.softness),
                                                   options_.fade == "alpha" ? Showing::blended : Showing::oldest);
 }
 

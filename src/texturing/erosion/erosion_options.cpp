@@ -20,6 +20,12 @@ OptionFields fields(ErosionOptions& o) {
        .help = "how much is eroded of a patch that is not distorted yet, which gives it a rim along its features (Gagnon 2021, sec. 5.2)",
        .lower = 0.0,
        .upper = 0.6},
+      {.key = "softness",
+       .target = &o.softness,
+       .help = "margin, in the units of epsilon, over which texture fades before it is gone, as fast as it is being distorted; 0, "
+               "as in the paper: it goes at once",
+       .lower = 0.0,
+       .upper = 1.0},
       {.key = "feature_map",
        .target = &o.feature_map,
        .help = "what is eroded last: the exemplar's heights, its opacity, what is far from the edges in its colours, or feature_image; "

@@ -36,13 +36,14 @@ class Viewer {
         return false;
       }
       const PatchIdentity& patch = layers_.identity(layer.patch);
-      const std::span<const CellMargin> cells = layers_.cells(layer.patch);
-      covered = erosion_.margin(patch, cells, layer.rest, layer.weight) >= 0.0f;
-      if (!covered) return false;
+      const std::span<const KeptCell> cells = layers_.cells(layer.patch);
+      const float opacity = erosion_.keeping(patch, cells, layer.rest, layer.weight).opacity;
+      if (opacity == 0.0f) return false;
       mark(seen_.patches[layer.patch]);
       const std::size_t cell = erosion_.judgedPlace(patch, cells, layer.rest);
       if (cell < cells.size()) mark(seen_.cells[layers_.firstCell(layer.patch) + cell]);
-      return true;
+      covered = opacity == 1.0f;
+      return covered;
     });
     return covered;
   }

@@ -11,7 +11,7 @@ namespace ebru {
 
 /// What a place needs of the patches over it.
 enum class Showing {
-  oldest,   ///< the oldest that is not eroded there is seen, and no other
+  oldest,   ///< the oldest that is not eroded there is seen, and what is below it as far as it has faded
   blended,  ///< all are seen, by their weights; a place has texture where one of them weighs at least `blendedWeight`
 };
 constexpr float blendedWeight = 0.5f;

@@ -40,10 +40,10 @@ void PatchErosion::judge(DeformablePatch& patch) const {
     const std::uint32_t cell = parts[i].cell;
     quality /= static_cast<float>(end - i);
     const bool hidden = !std::binary_search(patch.seen.begin(), patch.seen.end(), cell);
-    float margin = std::sqrt(cellTerm(patch, cell)) / patch.largestTerm - epsilon_ - (1.0f - quality);
-    if (cut) margin = divisible(patch, cell) ? std::numeric_limits<float>::quiet_NaN() : -1.0f;
-    if (!cut && hidden && quality < freshQuality) margin = -1.0f;
-    patch.cells.push_back({cell, margin});
+    Keeping kept = keeping(cellTerm(patch, cell), patch, quality);
+    if (cut || (hidden && quality < freshQuality)) kept = {-1.0f, 0.0f};
+    if (cut && divisible(patch, cell)) kept.margin = std::numeric_limits<float>::quiet_NaN();
+    patch.cells.push_back({kept, cell});
     i = end;
   }
 }

@@ -15,32 +15,40 @@ namespace ebru {
 /// With cells, whole features are: F is a feature's importance, D is taken at its middle and w is the mean quality on it. One that
 /// the rim of the patch cuts is eroded, but for large ones, of which a patch does not hold many, and the one in the middle: their
 /// places are judged one by one, as are those of cells smaller than the triangles. A feature that was hidden in the frame before comes out only while it is hardly distorted: else it
-/// would go again soon. Refers to the maps. Const members are safe to call concurrently.
+/// would go again soon.
+/// Texture fades over the last part of its margin, so that what takes its place does not jump at the eye. The fade follows the
+/// distortion: where the fluid stops it stops. Refers to the maps. Const members are safe to call concurrently.
 class PatchErosion {
  public:
   /// @param cells  null: places are eroded one by one, as in the paper
-  PatchErosion(const FeatureMap& features, const FeatureCells* cells, float radiusWorld, float texelWorld, float epsilon)
-      : features_(features), cells_(cells), radiusWorld_(radiusWorld), texelWorld_(texelWorld), epsilon_(epsilon) {}
+  /// @param softness  width of the margin over which texture fades before it is eroded; 0 in the paper
+  PatchErosion(const FeatureMap& features, const FeatureCells* cells, float radiusWorld, float texelWorld, float epsilon,
+               float softness)
+      : features_(features),
+        cells_(cells),
+        radiusWorld_(radiusWorld),
+        texelWorld_(texelWorld),
+        epsilon_(epsilon),
+        softness_(softness) {}
 
-  /// By how much a place is kept; eroded where it is negative.
+  /// How a place is kept.
   /// @param judged  cells of the patch, if it has them
   /// @param rest  as in DeformablePatch
-  float margin(const PatchIdentity& patch, std::span<const CellMargin> judged, const Vec2f& rest, float weight) const {
+  Keeping keeping(const PatchIdentity& patch, std::span<const KeptCell> judged, const Vec2f& rest, float weight) const {
     const std::size_t cell = judgedPlace(patch, judged, rest);
-    if (cell < judged.size() && !std::isnan(judged[cell].margin)) return judged[cell].margin;
+    if (cell < judged.size() && !std::isnan(judged[cell].margin)) return judged[cell];
     const float nearness = nearnessOf(rest), least = std::sqrt(nearness) / patch.largestTerm - epsilon_ - (1.0f - weight);
     // Most places are kept whatever the feature map says.
-    if (least >= 0.0f) return least;
-    const float feature = features_.at(patch.tile, placeOf(patch, rest));
-    return std::sqrt(feature + nearness) / patch.largestTerm - epsilon_ - (1.0f - weight);
+    if (least >= softness_) return {least, 1.0f};
+    return keeping(features_.at(patch.tile, placeOf(patch, rest)) + nearness, patch, weight);
   }
 
   /// Which of the judged cells a place lies in; their number if in none.
-  std::size_t judgedPlace(const PatchIdentity& patch, std::span<const CellMargin> judged, const Vec2f& rest) const {
+  std::size_t judgedPlace(const PatchIdentity& patch, std::span<const KeptCell> judged, const Vec2f& rest) const {
     if (judged.empty()) return 0;
     const std::uint32_t cell = cells_->at(patch.tile, placeOf(patch, rest));
     const auto found =
-        std::lower_bound(judged.begin(), judged.end(), cell, [](const CellMargin& c, std::uint32_t wanted) { return c.cell < wanted; });
+        std::lower_bound(judged.begin(), judged.end(), cell, [](const KeptCell& c, std::uint32_t wanted) { return c.cell < wanted; });
     return found != judged.end() && found->cell == cell ? static_cast<std::size_t>(found - judged.begin()) : judged.size();
   }
 
@@ -56,6 +64,15 @@ class PatchErosion {
  private:
   float nearnessOf(const Vec2f& rest) const { return std::max(0.0f, 1.0f - rest.norm() / radiusWorld_); }
   Vec2f placeOf(const PatchIdentity& patch, const Vec2f& rest) const { return patch.centreSt + rest / texelWorld_; }
+  /// @param squaredTerm  F + D
+  Keeping keeping(float squaredTerm, const PatchIdentity& patch, float weight) const {
+    const float fresh = std::sqrt(squaredTerm) / patch.largestTerm - epsilon_, margin = fresh - (1.0f - weight);
+    if (margin < 0.0f) return {margin, 0.0f};
+    // What is hardly kept even when it is fresh has less to fade over.
+    const float softness = std::min(softness_, 0.5f * fresh);
+    return {margin, margin < softness ? margin / softness : 1.0f};
+  }
+  /// F + D of a cell.
   float cellTerm(const PatchIdentity& patch, std::uint32_t cell) const {
     return cells_->importance(cell) + nearnessOf((cells_->centre(cell) - patch.centreSt) * texelWorld_);
   }
@@ -64,7 +81,7 @@ class PatchErosion {
 
   const FeatureMap& features_;
   const FeatureCells* cells_;
-  float radiusWorld_, texelWorld_, epsilon_;
+  float radiusWorld_, texelWorld_, epsilon_, softness_;
 };
 
 }  // namespace ebru

@@ -60,7 +60,7 @@ class PatchLayers {
   std::size_t firstCell(std::uint32_t patch) const { return firstCell_[patch]; }
   std::size_t cellCount() const { return cells_.size(); }
   std::size_t patchCount() const { return identities_.size(); }
-  std::span<const CellMargin> cells(std::uint32_t patch) const {
+  std::span<const KeptCell> cells(std::uint32_t patch) const {
     return std::span(cells_).subspan(firstCell_[patch], firstCell_[patch + 1] - firstCell_[patch]);
   }
 
@@ -123,7 +123,7 @@ class PatchLayers {
 
   std::vector<PatchIdentity> identities_;
   std::vector<std::uint32_t> firstCell_;  ///< into cells_; one more than patches
-  std::vector<CellMargin> cells_;
+  std::vector<KeptCell> cells_;
   std::vector<Triangle> triangles_;
   std::vector<Texture> textures_;
   float inverseCell_ = 1.0f;
