@@ -32,12 +32,17 @@ void addPath(Fingerprint& fingerprint, const std::filesystem::path& path, const 
   if (std::filesystem::is_regular_file(path, failed)) fingerprint.addContent(path);
 }
 
+bool decidesState(const ShotTable& table, const Shot& shot) {
+  const bool knowsView = shot.texture.method == "quilt" && shot.texture.quilt.camera_aware;
+  return table.decides == ShotTable::Decides::states || (table.decides == ShotTable::Decides::view && knowsView);
+}
+
 std::string fingerprintOf(const Shot& constShot, bool statesOnly) {
   Shot shot = constShot;
   Fingerprint fingerprint;
   fingerprint.add(programVersion());
   for (const ShotTable& table : shotTables()) {
-    if (statesOnly && !table.decidesState) continue;
+    if (statesOnly && !decidesState(table, shot)) continue;
     for (std::size_t i = 0; i < table.size(shot); ++i) {
       fingerprint.add(fmt::format("[{}.{}]", table.name, i));
       for (const OptionField& field : table.fields(shot, i)) {

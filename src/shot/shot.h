@@ -39,7 +39,7 @@ Shot readShot(const std::filesystem::path& file, const std::vector<std::string>&
 /// @throw UsageError as readShot
 FluidOptions readFluid(const std::string& path, const std::vector<std::string>& overrides);
 
-/// Hash of everything that decides the states (fluid, texture, seed, version) ...
+/// Hash of everything that decides the states (fluid, texture, seed, version; the camera where texture.quilt.camera_aware is on) ...
 std::string stateFingerprint(const Shot& shot);
 /// ... and of everything that decides the pixels.
 std::string pictureFingerprint(const Shot& shot);

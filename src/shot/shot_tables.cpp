@@ -4,11 +4,11 @@ namespace ebru {
 namespace {
 
 template <class Options>
-ShotTable single(std::string name, std::string help, bool decidesState, Options& (*options)(Shot&)) {
+ShotTable single(std::string name, std::string help, ShotTable::Decides decides, Options& (*options)(Shot&)) {
   ShotTable table;
   table.name = std::move(name);
   table.help = std::move(help);
-  table.decidesState = decidesState;
+  table.decides = decides;
   table.resize = [](Shot&, std::size_t) {};
   table.size = [](const Shot&) { return std::size_t{1}; };
   table.fields = [options](Shot& shot, std::size_t) { return fields(options(shot)); };
@@ -44,20 +44,23 @@ OptionFields fields(ShotOptions& options) {
 }
 
 const std::vector<ShotTable>& shotTables() {
+  using enum ShotTable::Decides;
   static const std::vector<ShotTable> tables = {
-      single<ShotOptions>("shot", "What is rendered.", true, [](Shot& s) -> auto& { return s.shot; }),
-      single<FluidOptions>("fluid", "Where the fluid comes from.", true,
+      single<ShotOptions>("shot", "What is rendered.", states, [](Shot& s) -> auto& { return s.shot; }),
+      single<FluidOptions>("fluid", "Where the fluid comes from.", states,
                            [](Shot& s) -> auto& { return s.fluid; }),
-      single<TextureOptions>("texture", "What it is covered with, and how.", true,
+      single<TextureOptions>("texture", "What it is covered with, and how.", states,
                              [](Shot& s) -> auto& { return s.texture; }),
-      single<ErosionOptions>("texture.erosion", "What method erosion alone asks for.", true,
+      single<ErosionOptions>("texture.erosion", "What method erosion alone asks for.", states,
                              [](Shot& s) -> auto& { return s.texture.erosion; }),
-      single<CameraOptions>("camera", "Where it is seen from.", false,
+      single<QuiltOptions>("texture.quilt", "What method quilt alone asks for.", states,
+                           [](Shot& s) -> auto& { return s.texture.quilt; }),
+      single<CameraOptions>("camera", "Where it is seen from.", view,
                             [](Shot& s) -> auto& { return s.scene.camera; }),
-      single<RenderOptions>("render", "How the picture is taken.", false,
+      single<RenderOptions>("render", "How the picture is taken.", pictures,
                             [](Shot& s) -> auto& { return s.scene.render; }),
       array<LightOptions>("light", "One light each.", [](Shot& s) -> auto& { return s.scene.lights; }),
-      single<GroundOptions>("ground", "A plane below the fluid.", false,
+      single<GroundOptions>("ground", "A plane below the fluid.", pictures,
                             [](Shot& s) -> auto& { return s.scene.ground; }),
       array<ObstacleOptions>("obstacle", "Solid things that stand in the fluid; they are drawn, not simulated.",
                              [](Shot& s) -> auto& { return s.scene.obstacles; }),

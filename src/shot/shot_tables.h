@@ -14,7 +14,12 @@ struct ShotTable {
   std::string name;           ///< "texture", "texture.erosion" for a table in it, or "light" for [[light]]
   std::string help;           ///< one sentence for the reference
   bool isArray = false;       ///< [[name]]: any number of them
-  bool decidesState = false;  ///< the texture's states depend on it, not the pictures alone
+  enum class Decides {
+    states,    ///< the texture's, and the pictures
+    view,      ///< pictures, and states of texture that knows what is seen
+    pictures,
+  };
+  Decides decides = Decides::pictures;
   /// Makes the array as long as the file's; does nothing for a single table.
   std::function<void(Shot&, std::size_t)> resize;
   std::function<std::size_t(const Shot&)> size;  ///< 1 for a single table

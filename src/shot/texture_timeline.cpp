@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "render/camera_view.h"
 #include "shot/interrupt.h"
 
 namespace ebru {
@@ -24,10 +25,17 @@ std::shared_ptr<const TextureField> TextureTimeline::seek(int frame) {
   return method_->field();
 }
 
+std::unique_ptr<TextureMethod> TextureTimeline::makeMethod() const {
+  const auto view = [camera = shot_.scene.camera](const FluidFrame& frame) {
+    return std::make_shared<CameraView>(camera, frame);
+  };
+  return makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_, view);
+}
+
 void TextureTimeline::restart() {
   const int first = shot_.shot.first_frame;
   onStep_(first);
-  method_ = makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_);
+  method_ = makeMethod();
   method_->start(*frames_.get(first));
   current_ = first;
   save();
@@ -35,7 +43,7 @@ void TextureTimeline::restart() {
 
 void TextureTimeline::loadState(const StateStore::Found& found) {
   onStep_(found.frame);
-  if (!method_) method_ = makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_);
+  if (!method_) method_ = makeMethod();
   const PhaseTimer timer(times_, "load state");
   method_->load(found.reader);
   current_ = found.frame;

@@ -24,6 +24,7 @@ class TextureTimeline {
   std::shared_ptr<const TextureField> seek(int frame);
 
  private:
+  std::unique_ptr<TextureMethod> makeMethod() const;
   void restart();
   void loadState(const StateStore::Found& found);
   void step();

@@ -12,7 +12,15 @@
 namespace ebru {
 namespace {
 
-using Maker = std::unique_ptr<TextureMethod> (*)(const TextureOptions&, std::uint64_t, PhaseTimes*);
+using Maker = std::function<std::unique_ptr<TextureMethod>(const TextureOptions&, std::uint64_t, PhaseTimes*, const ViewFactory&)>;
+
+/// Of a method that does not ask what is seen.
+template <class Make>
+Maker blind(Make* make) {
+  return [make](const TextureOptions& options, std::uint64_t seed, PhaseTimes* times, const ViewFactory&) {
+    return make(options, seed, times);
+  };
+}
 
 struct Entry {
   TextureMethodInfo info;
@@ -23,10 +31,10 @@ struct Entry {
 const std::vector<Entry>& registry() {
   static const std::vector<Entry> entries = {
       {{"particles", "texture coordinates ride on particles, 64 nearest interpolated (Rasmussen 2004): distorts"},
-       makeParticlesMethod},
-      {{"synthesis", "surface texture optimisation on advected texture particles (Kwatra 2007)"}, makeSynthesisMethod},
+       blind(makeParticlesMethod)},
+      {{"synthesis", "surface texture optimisation on advected texture particles (Kwatra 2007)"}, blind(makeSynthesisMethod)},
       {{"erosion", "deformable lapped patches, eroded along the exemplar's features where they are distorted (Gagnon 2021)"},
-       makeErosionMethod},
+       blind(makeErosionMethod)},
       {{"quilt", "ours: texture follows the flow strictly, worn pieces are quilted anew along least-error cuts"}, makeQuiltMethod},
   };
   return entries;
@@ -44,10 +52,10 @@ const std::vector<TextureMethodInfo>& textureMethods() {
 }
 
 std::unique_ptr<TextureMethod> makeTextureMethod(const TextureOptions& options, std::uint64_t seed,
-                                                 PhaseTimes* times) {
+                                                 PhaseTimes* times, const ViewFactory& views) {
   std::string known;
   for (const Entry& entry : registry()) {
-    if (entry.info.name == options.method) return entry.make(options, seed, times);
+    if (entry.info.name == options.method) return entry.make(options, seed, times, views);
     known += (known.empty() ? "" : ", ") + entry.info.name;
   }
   throw UsageError(

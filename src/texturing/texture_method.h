@@ -10,6 +10,7 @@
 #include "io/state_file.h"
 #include "texturing/texture_field.h"
 #include "texturing/texture_options.h"
+#include "texturing/view.h"
 
 namespace ebru {
 
@@ -48,8 +49,9 @@ const std::vector<TextureMethodInfo>& textureMethods();
 /// @param options  with resolved file names
 /// @param seed  of the shot
 /// @param times  where phases are timed; may be null
+/// @param views  what the camera sees of each frame; null where nobody knows
 /// @throw UsageError if there is no such method; InputError if the exemplar cannot be used
 std::unique_ptr<TextureMethod> makeTextureMethod(const TextureOptions& options, std::uint64_t seed,
-                                                 PhaseTimes* times);
+                                                 PhaseTimes* times, const ViewFactory& views = {});
 
 }  // namespace ebru

@@ -5,6 +5,7 @@
 
 #include "core/options.h"
 #include "texturing/erosion/erosion_options.h"
+#include "texturing/quilt/quilt_options.h"
 
 namespace ebru {
 
@@ -29,6 +30,7 @@ struct TextureOptions {
   int iterations = 2;
 
   ErosionOptions erosion;
+  QuiltOptions quilt;
 };
 
 OptionFields fields(TextureOptions& options);

@@ -207,6 +207,19 @@ TEST_F(ShotReader, FingerprintsFollowWhatDecides) {
   }
 }
 
+TEST_F(ShotReader, StatesDependOnTheCameraOnlyWhereTheTextureKnowsIt) {
+  const std::string moved = "camera.position=[4, 5, 6]", aware = "texture.quilt.camera_aware=true";
+  const auto stateAfter = [&](const std::vector<std::string>& s) { return stateFingerprint(read(good, s)); };
+  const std::string quilt = "texture.method=quilt";
+  EXPECT_EQ(stateAfter({quilt}), stateAfter({quilt, moved}));
+  EXPECT_NE(stateAfter({quilt}), stateAfter({quilt, aware}));
+  EXPECT_NE(stateAfter({quilt, aware}), stateAfter({quilt, aware, moved}));
+  EXPECT_NE(stateAfter({quilt, aware}), stateAfter({quilt, aware, "camera.size=[65, 36]"}));
+  EXPECT_EQ(stateAfter({quilt, aware}), stateAfter({quilt, aware, "render.spp=3"}));
+  // Other methods do not ask.
+  EXPECT_EQ(stateAfter({aware}), stateAfter({aware, moved}));
+}
+
 TEST_F(ShotReader, FingerprintsSeeTheExemplarsContentAndNotItsFolder) {
   const auto write = [&](const std::string& content) { std::ofstream(folder_ / "pebbles.png") << content; };
   write("one");

@@ -27,7 +27,7 @@ struct Plane : test::TexturedPlane {
       colour[i] = large.sample(0, st[i]);
     }
   }
-  QuiltSurface surface() { return {points(), graph, texelWorld, texture(), wear, bound, laid}; }
+  QuiltSurface surface() { return {points(), graph, texelWorld, texture(), wear, bound, {}, laid}; }
   void cover(const QuiltShape& shape = {14.0f, 4.0f}, const PreStretch& preStretch = rigid) {
     coverWorn(surface(), large, search, shape, preStretch);
   }

@@ -10,6 +10,7 @@ namespace {
 constexpr float anySeam = 0.2f;       ///< cost of a texel of seam, however alike its sides
 constexpr float linksPerTexel = 3.3f; ///< that cross a texel of seam
 constexpr float changeWeight = 0.1f;
+constexpr float seenChangeWeight = 0.2f;  ///< where it is known what is seen; a change that nobody sees costs nothing
 constexpr float overdue = 2.0f;
 
 }  // namespace
@@ -57,7 +58,8 @@ void PieceCut::classify(const QuiltSurface& surface) {
       kinds_[k] = Kind::core;
     } else if (!surface.laid[i]) {
       costs_[k].keep = std::clamp(wear - 1.0f, 0.0f, 1.0f) + (wear > surface.bound[i] ? overdue : 0.0f);
-      costs_[k].change = changeWeight * trustInTexture(wear);
+      const float weight = surface.visibility.empty() ? changeWeight : seenChangeWeight * surface.visibility[i];
+      costs_[k].change = weight * trustInTexture(wear);
     }
   }
 }

@@ -28,15 +28,19 @@ constexpr int mendingRounds = 8;
 constexpr float mostLayingStretch = 1.3f;
 /// Texture that is stretched by a frame alone as much as the bound is not worth a change in every frame: it should last.
 constexpr float lastingFrames = 6.0f, mostBound = 3.0f;
+/// Bound on the stretch of what the camera does not see, and how far from what it sees that has to be, in links.
+constexpr float hiddenBound = 1.3f;
+constexpr int hiddenRings = 16;
 constexpr float screening = 0.08f;
 constexpr int firstRelaxation = 60, relaxation = 5, relaxedRings = 3;
 
 class QuiltMethod : public ParticleMethod {
  public:
-  QuiltMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times)
+  QuiltMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times, const ViewFactory& views)
       : ParticleMethod(options, seed, times),
         bound_(static_cast<float>(options.stretch_bound)),
         lookAhead_(options.look_ahead),
+        views_(options.quilt.camera_aware ? views : ViewFactory()),
         search_(*exemplar()) {
     const PhaseTimer timer(times, "exemplar");
     feature_ = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(*exemplar());
@@ -60,16 +64,34 @@ class QuiltMethod : public ParticleMethod {
     return std::make_shared<ChartField>(std::move(particles), exemplar(), texelWorld());
   }
 
-  std::vector<float> bounds(const OrientedPoints& points, const StretchForecast& forecast,
-                            const std::vector<float>& wear) const;
+  /// What is seen of each point; empty where nobody knows.
+  std::vector<float> visibilities(const FluidFrame& frame, const OrientedPoints& points) const;
+  /// @param hidden  of `hiddenness`
+  std::vector<float> bounds(const OrientedPoints& points, const StretchForecast& forecast, const std::vector<float>& wear,
+                            const std::vector<float>& hidden) const;
   void quilt(const QuiltSurface& surface, const StretchForecast& forecast) const;
   void relax(const QuiltSurface& surface, const std::vector<ParticleFate>& fates, int sweeps) const;
 
   float bound_;
   int lookAhead_;
+  ViewFactory views_;  ///< null: all texture counts as seen
   float feature_ = 0.0f;  ///< texels
   PieceSearch search_;
 };
+
+/// 1 - visibility, of the most visible point around: a piece reaches as far as that even if its cut is short.
+std::vector<float> hiddenness(std::vector<float> seen, const PointGraph& graph) {
+  std::vector<float> next;
+  for (int ring = 0; ring < hiddenRings && !seen.empty(); ++ring) {
+    next = seen;
+    parallelFor(seen.size(), 512, [&](std::size_t i) {
+      for (const std::uint32_t j : graph.of(static_cast<std::uint32_t>(i))) next[i] = std::max(next[i], seen[j]);
+    });
+    seen.swap(next);
+  }
+  for (float& s : seen) s = 1.0f - s;
+  return seen;
+}
 
 bool withoutTexture(std::span<const float> wear) {
   return std::all_of(wear.begin(), wear.end(), [](float w) { return w >= noTexture; });
@@ -89,10 +111,11 @@ void QuiltMethod::retexture(const FluidFrame& frame, FramesAhead ahead, const st
   });
   std::vector<float> wear = textureWear(particles, fates, *exemplar());
   const StretchForecast forecast(frame, ahead, texelWorld());
-  const std::vector<float> bound = bounds(flat.points(), forecast, wear);
+  const std::vector<float> visibility = visibilities(frame, flat.points());
+  const std::vector<float> bound = bounds(flat.points(), forecast, wear, hiddenness(visibility, graph));
   std::vector<std::uint8_t> laid(particles.size());
   const QuiltSurface surface{flat.points(), graph, texelWorld(),
-                             {particles.colour, particles.st, particles.jacobian}, wear, bound, laid};
+                             {particles.colour, particles.st, particles.jacobian}, wear, bound, visibility, laid};
   const int sweeps = withoutTexture(wear) ? firstRelaxation : relaxation;
   quilt(surface, forecast);
   relax(surface, fates, sweeps);
@@ -103,14 +126,24 @@ void QuiltMethod::retexture(const FluidFrame& frame, FramesAhead ahead, const st
   startFades(before, laid, fates, particles);
 }
 
+std::vector<float> QuiltMethod::visibilities(const FluidFrame& frame, const OrientedPoints& points) const {
+  if (!views_) return {};
+  const std::shared_ptr<const View> view = views_(frame);
+  std::vector<float> result(points.positions.size());
+  parallelFor(result.size(), 512, [&](std::size_t i) { result[i] = view->visibility(points.positions[i], points.normals[i]); });
+  return result;
+}
+
 std::vector<float> QuiltMethod::bounds(const OrientedPoints& points, const StretchForecast& forecast,
-                                       const std::vector<float>& wear) const {
+                                       const std::vector<float>& wear, const std::vector<float>& hidden) const {
   std::vector<float> bound(wear.size(), bound_);
   const float most = std::max(mostBound, bound_);
   parallelFor(bound.size(), 512, [&](std::size_t i) {
-    if (wear[i] <= bound_ || wear[i] >= noTexture) return;  // the others need not know
+    if (!hidden.empty()) bound[i] += hidden[i] * std::min(0.0f, hiddenBound - bound_);
+    if (wear[i] <= bound[i] || wear[i] >= noTexture) return;  // the others need not know
+    if (!hidden.empty() && hidden[i] > 0.5f) return;  // nobody sees how often it changes
     const float next = forecast.nextStretch({points.positions[i], points.normals[i], points.orientations[i]});
-    bound[i] = std::clamp(std::exp(lastingFrames * next), bound_, most);
+    bound[i] = std::clamp(std::exp(lastingFrames * next), bound[i], most);
   });
   return bound;
 }
@@ -144,8 +177,9 @@ void QuiltMethod::relax(const QuiltSurface& surface, const std::vector<ParticleF
 
 }  // namespace
 
-std::unique_ptr<TextureMethod> makeQuiltMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times) {
-  return std::make_unique<QuiltMethod>(options, seed, times);
+std::unique_ptr<TextureMethod> makeQuiltMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times,
+                                               const ViewFactory& views) {
+  return std::make_unique<QuiltMethod>(options, seed, times, views);
 }
 
 }  // namespace ebru

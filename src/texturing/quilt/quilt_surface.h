@@ -18,6 +18,7 @@ struct QuiltSurface {
   SurfaceTexture texture;
   std::span<float> wear;          ///< stretch of the charts (`textureWear`); noTexture: there is none yet
   std::span<const float> bound;   ///< texture worn more has to be replaced
+  std::span<const float> visibility;  ///< of `View`; empty: all is seen
   std::span<std::uint8_t> laid;   ///< 1: nobody has seen this texture yet
 };
 

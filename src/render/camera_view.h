@@ -1,0 +1,24 @@
+#pragma once
+
+#include "render/camera.h"
+#include "render/embree_scene.h"
+#include "texturing/view.h"
+
+namespace ebru {
+
+/// What a camera sees of a fluid's surface: nothing outside the picture, nothing behind other fluid; from a cosine of 0.35 between
+/// normal and line of sight down to 0.1 visibility falls from 1 to 0. Ground and obstacles hide nothing. Copies the mesh.
+class CameraView : public View {
+ public:
+  /// @throw UsageError as Camera; BugError as EmbreeScene
+  CameraView(const CameraOptions& options, const FluidFrame& frame);
+
+  float visibility(const Vec3f& positionWorld, const Vec3f& normal) const override;
+
+ private:
+  Camera camera_;
+  EmbreeScene fluid_;
+  float voxelSizeWorld_;
+};
+
+}  // namespace ebru
