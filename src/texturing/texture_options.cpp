@@ -43,7 +43,7 @@ OptionFields fields(TextureOptions& o) {
        .target = &o.feature_size,
        .unit = "texel",
        .help = "diameter of the exemplar's features, which pieces of texture are made larger than; 0: measured by its autocorrelation "
-               "(`ebru inspect` prints it; methods synthesis and quilt)",
+               "(`ebru inspect` prints it; methods synthesis, erosion and quilt)",
        .lower = 0.0,
        .upper = 1e4},
       {.key = "stretch_bound",

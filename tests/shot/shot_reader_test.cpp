@@ -207,6 +207,20 @@ TEST_F(ShotReader, FingerprintsFollowWhatDecides) {
   }
 }
 
+// [texture.erosion] stands in [texture] and is a table of its own.
+TEST_F(ShotReader, ReadsTablesInTables) {
+  const Shot shot = read(good + "[texture.erosion]\nradius = 40\n", {"texture.erosion.fade=alpha"});
+  EXPECT_EQ(shot.texture.erosion.radius, 40.0);
+  EXPECT_EQ(shot.texture.erosion.fade, "alpha");
+  EXPECT_EQ(read(good, {"texture.erosion.max_patches=7"}).texture.erosion.max_patches, 7);
+  EXPECT_TRUE(says(problemsOf(good + "[texture.erosion]\nradios = 40\n"), "unknown key texture.erosion.radios"));
+  EXPECT_TRUE(says(problemsOf(good + "[texture.erosion]\nradios = 40\n"), "radius"));
+  EXPECT_TRUE(says(problemsOf(good, {"texture.erosion=3"}), "texture.erosion"));
+  EXPECT_TRUE(says(problemsOf(good, {"texture.erozion.radius=3"}), "texture.erozion"));
+  EXPECT_TRUE(says(problemsOf(good + "[texture.erosion]\nmax_distortion = 0.5\n"), "texture.erosion.max_distortion: got 0.5"));
+  EXPECT_NE(stateFingerprint(read(good, {"texture.erosion.radius=40"})), stateFingerprint(read(good)));
+}
+
 TEST_F(ShotReader, StatesDependOnTheCameraOnlyWhereTheTextureKnowsIt) {
   const std::string moved = "camera.position=[4, 5, 6]", aware = "texture.quilt.camera_aware=true";
   const auto stateAfter = [&](const std::vector<std::string>& s) { return stateFingerprint(read(good, s)); };

@@ -12,7 +12,7 @@ struct ErosionOptions {
   double radius = 0.0;
   double max_distortion = 3.0;
   double epsilon = 0.1;
-  double softness = 0.2;
+  double softness = 0.1;
   std::string feature_map = "auto";
   std::vector<std::string> feature_image;
   std::string unit = "feature";
