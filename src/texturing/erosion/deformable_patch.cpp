@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "surface/distortion.h"
+
 namespace ebru {
 namespace {
 
@@ -27,11 +29,7 @@ float distortionOf(const DeformablePatch& patch, const Vec3i& triangle, float& a
   surface << length, b.dot(c) / length, 0.0f, -area / length;
   plane << (patch.rest[j] - patch.rest[i]), (patch.rest[k] - patch.rest[i]);
   const Mat2f jacobian = plane * surface.inverse();
-  const float square = jacobian.squaredNorm(), det = jacobian.determinant();
-  if (!(det > 0.0f)) return std::numeric_limits<float>::infinity();
-  const float sum = std::sqrt(square + 2.0f * det), difference = std::sqrt(std::max(0.0f, square - 2.0f * det));
-  const float largest = 0.5f * (sum + difference), smallest = 0.5f * (sum - difference);
-  return std::max(largest, smallest > 0.0f ? 1.0f / smallest : std::numeric_limits<float>::infinity());
+  return jacobian.determinant() > 0.0f ? distortion(jacobian) : std::numeric_limits<float>::infinity();
 }
 
 /// Per vertex, 1 on the rim to 0 where it is `rimWidth` away, measured in the flattened patch.

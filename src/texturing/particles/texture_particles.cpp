@@ -92,14 +92,6 @@ Vec2f localTexels(const TextureParticles& particles, std::size_t i, const Vec3f&
   return {v.dot(o), v.dot(secondAxis(particles.normal[i], o))};
 }
 
-float distortion(const Mat2f& jacobian) {
-  // Singular values of a 2 x 2 matrix from its norm and determinant: s1 +- s2 = sqrt(|J|^2 +- 2 |det J|).
-  const float square = jacobian.squaredNorm(), det = std::abs(jacobian.determinant());
-  const float sum = std::sqrt(square + 2.0f * det), difference = std::sqrt(std::max(0.0f, square - 2.0f * det));
-  const float largest = 0.5f * (sum + difference), smallest = 0.5f * (sum - difference);
-  return std::max(largest, smallest > 1e-6f ? 1.0f / smallest : 1e6f);
-}
-
 Mat2f nearestRotation(const Mat2f& jacobian) {
   const float c = jacobian(0, 0) + jacobian(1, 1), s = jacobian(1, 0) - jacobian(0, 1);
   const float length = std::hypot(c, s);

@@ -7,6 +7,7 @@
 #include "exemplar/exemplar.h"
 #include "fluid/fluid_frame.h"
 #include "io/state_file.h"
+#include "surface/distortion.h"
 #include "surface/neighbourhood.h"
 
 namespace ebru {
@@ -49,9 +50,6 @@ constexpr float pointsPerTexel = 0.7f / (poissonSpacingTexels * poissonSpacingTe
 
 /// Displacement of a world point from particle i, in its frame, in texels.
 Vec2f localTexels(const TextureParticles& particles, std::size_t i, const Vec3f& pWorld, float texelWorld);
-
-/// max(s1, 1/s2) of the singular values of a Jacobian: 1 where the texture is laid isometrically.
-float distortion(const Mat2f& jacobian);
 
 /// The rotation nearest to a Jacobian (its polar factor; a reflection is turned into the nearest rotation).
 Mat2f nearestRotation(const Mat2f& jacobian);
