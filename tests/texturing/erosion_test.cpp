@@ -133,6 +133,12 @@ TEST_F(PatchOnSlab, LiesIsometricallyAndNotMirrored) {
     EXPECT_NEAR(patch.rest[v].y(), d.dot(down), 0.01f);
   }
   EXPECT_TRUE(exemplar_.holds(patch.centreSt));
+  EXPECT_TRUE(patch.seen.empty());
+  const FeatureCells cells(exemplar_, features_);
+  const PatchErosion byFeature(features_, &cells, plan_.radiusWorld, plan_.texelWorld, 0.1f, 0.0f);
+  const DeformablePatch whole =
+      PatchMaker(*frame_, frame_->mesh, SurfaceRim(frame_->mesh), exemplar_, byFeature, plan_).make(top(0.0f, 0.0f), 0);
+  EXPECT_EQ(whole.seen, std::vector<std::uint32_t>{cells.at(0, whole.centreSt)});
 }
 
 TEST_F(PatchOnSlab, RestsWithTheFluidAndMovesWithIt) {

@@ -36,7 +36,7 @@ struct DeformablePatch : PatchIdentity {
   std::vector<Vec2f> rest;       ///< flattened, metres from the centre, in the exemplar's axes (v down)
   std::vector<Vec3i> triangles;  ///< counter-clockwise from outside
   std::vector<unsigned char> atEnd;  ///< per vertex, 1 where the surface itself ends: no rim of the patch
-  std::vector<std::uint32_t> seen;  ///< cells of it that were seen in the last frame, ascending
+  std::vector<std::uint32_t> seen;  ///< cells of it that were seen in the last frame, of a new one that are to be, ascending
 
   /// Of the present shape; see `measure`.
   std::vector<float> quality;     ///< per vertex, Q_V of eq. 1, in [0, 1]

@@ -58,6 +58,12 @@ class PatchErosion {
   /// Where a patch's centre best lies in the exemplar, near `st`: in the middle of a feature.
   Vec2f centreNear(int tile, const Vec2f& st) const { return cells_ ? cells_->centre(cells_->at(tile, st)) : st; }
 
+  /// The cells that a new patch is to show: that of its centre, however hard it is to flatten there.
+  std::vector<std::uint32_t> cellsToShow(const PatchIdentity& patch) const {
+    if (!cells_) return {};
+    return {cells_->at(patch.tile, patch.centreSt)};
+  }
+
   /// The maximum of sqrt(F + D) over a patch with that centre.
   float largestTerm(const PatchIdentity& patch) const;
 

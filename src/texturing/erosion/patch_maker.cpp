@@ -53,6 +53,7 @@ DeformablePatch PatchMaker::make(const SurfacePlace& centre, std::uint32_t id) c
   flatten(centre, plan_.randomOrientation ? 2.0f * std::numbers::pi_v<float> * random.uniform() : 0.0f, patch);
   noteEnds(rim_, patch);
   measure(plan_.radiusWorld, plan_.maxDistortion, patch);
+  patch.seen = erosion_.cellsToShow(patch);
   erosion_.judge(patch);
   return patch;
 }
