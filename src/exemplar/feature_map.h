@@ -30,6 +30,13 @@ class FeatureMap {
   /// In [0, 1], bilinear. @param uv  as of Exemplar, texels of level 0; clamped to the tile
   float at(int tile, const Vec2f& uv) const;
 
+  /// Whether a coordinate lies in the image of the tile.
+  bool holds(int tile, const Vec2f& uv) const {
+    const Tile& t = tiles_[static_cast<std::size_t>(tile)];
+    const float x = uv.x() - t.origin;
+    return x >= 0.0f && uv.y() >= 0.0f && x <= static_cast<float>(t.size.x()) && uv.y() <= static_cast<float>(t.size.y());
+  }
+
   /// Row-major, row 0 at the top.
   const std::vector<float>& plane(int tile) const { return tiles_[static_cast<std::size_t>(tile)].values; }
 

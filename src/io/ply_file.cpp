@@ -262,13 +262,16 @@ class Reader {
   bool ascii_ = false, swapped_ = false;
 };
 
+/// Null if there is none of that name.
+template <class Item>
+const Item* named(const std::vector<Item>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
-const PlyProperty* PlyElement::find(const std::string& property) const {
-  for (const PlyProperty& p : properties)
-    if (p.name == property) return &p;
-  return nullptr;
-}
+const PlyProperty* PlyElement::find(const std::string& property) const { return named(properties, property); }
 
 std::string PlyElement::propertyNames() const {
   std::string names;
@@ -276,11 +279,7 @@ std::string PlyElement::propertyNames() const {
   return names;
 }
 
-const PlyElement* PlyFile::find(const std::string& element) const {
-  for (const PlyElement& e : elements)
-    if (e.name == element) return &e;
-  return nullptr;
-}
+const PlyElement* PlyFile::find(const std::string& element) const { return named(elements, element); }
 
 std::string PlyFile::description() const {
   std::string text;

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "render/renderer.h"
 #include "shot/output_files.h"
+#include "surface/mesh_measures.h"
 
 namespace ebru {
 namespace {

@@ -19,10 +19,6 @@ bool crowded(const CellGrid& grid, const std::vector<Vec3f>& positions, const st
 
 }  // namespace
 
-double surfaceArea(const TriangleMesh& mesh) {
-  return parallelSum(mesh.triangles.size(), [&](std::size_t t) { return triangleArea(mesh, t); });
-}
-
 void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64_t seed, int frame,
                        SurfaceSamples& samples) {
   // A saturated set holds about 0.7 samples per spacing^2; some 14 darts for each leave few gaps.

@@ -16,9 +16,6 @@ struct SurfaceSamples {
   std::size_t size() const { return positions.size(); }
 };
 
-/// Area of a mesh, square metres.
-double surfaceArea(const TriangleMesh& mesh);
-
 /// Adds samples until the surface is covered by a Poisson-disk set: no two closer than `spacingWorld`, no place much
 /// farther than that from one (dart throwing over the triangles). Samples already there are kept and respected, which
 /// gives the nested point sets of [Turk 2001; Kwatra 2007, sec. 4.1]. Samples whose normals differ by more than 90

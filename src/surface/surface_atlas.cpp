@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "surface/chart_packing.h"
+#include "surface/mesh_measures.h"
 
 namespace ebru {
 namespace {
@@ -120,10 +121,6 @@ class ChartRaster {
   std::vector<float> distance_;  ///< squared, texels; 0 where a triangle has the centre
 };
 
-double areaOf(const TriangleMesh& mesh) {
-  return parallelSum(mesh.triangles.size(), [&](std::size_t t) { return areaNormal(mesh, t).norm(); });
-}
-
 [[noreturn]] void refuse(const std::string& where, std::size_t charts, int width, int height) {
   const double leastTexels = static_cast<double>(charts) * std::pow(2.0 * atlasGutterTexels + 1.0, 2);
   // At four times the least side gutters take a small part only.
@@ -155,7 +152,7 @@ SurfaceAtlas makeSurfaceAtlas(const TriangleMesh& mesh, int width, int height, c
   atlas.chartOfTriangle.resize(mesh.triangles.size());
 
   ChartLimits limits;
-  limits.maxSideWorld = static_cast<float>(largestChart * std::sqrt(areaOf(mesh)));
+  limits.maxSideWorld = static_cast<float>(largestChart * std::sqrt(surfaceArea(mesh)));
   const std::vector<SurfaceChart> charts = cutIntoCharts(mesh, limits);
   std::vector<Vec2d> sizes;
   for (const SurfaceChart& chart : charts) sizes.push_back(chart.size);

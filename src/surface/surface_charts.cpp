@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/parallel.h"
+#include "surface/mesh_measures.h"
 
 namespace ebru {
 namespace {
@@ -94,19 +95,6 @@ class FlatIndex {
   std::vector<Entry> entries_;
   std::vector<FlatTriangle> triangles_;
 };
-
-double meanEdge(const TriangleMesh& mesh) {
-  const double sum = parallelSum(mesh.triangles.size(), [&](std::size_t t) {
-    double length = 0.0;
-    for (int c = 0; c < 3; ++c)
-      length += (mesh.positions[static_cast<std::size_t>(mesh.triangles[t][c])] -
-                 mesh.positions[static_cast<std::size_t>(mesh.triangles[t][(c + 1) % 3])])
-                    .cast<double>()
-                    .norm();
-    return length;
-  });
-  return sum / (3.0 * static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1)));
-}
 
 class ChartGrower {
  public:
@@ -245,14 +233,6 @@ void turnToSmallestBox(const TriangleMesh& mesh, SurfaceChart& chart) {
 }
 
 }  // namespace
-
-Vec3d areaNormal(const TriangleMesh& mesh, std::size_t triangle) {
-  const Vec3i& t = mesh.triangles[triangle];
-  const Vec3d a = mesh.positions[static_cast<std::size_t>(t[0])].cast<double>();
-  const Vec3d b = mesh.positions[static_cast<std::size_t>(t[1])].cast<double>();
-  const Vec3d c = mesh.positions[static_cast<std::size_t>(t[2])].cast<double>();
-  return 0.5 * (b - a).cross(c - a);
-}
 
 std::vector<std::uint32_t> trianglesAcrossSides(const TriangleMesh& mesh) {
   struct Side {

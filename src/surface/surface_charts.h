@@ -33,9 +33,6 @@ struct SurfaceChart {
   }
 };
 
-/// Area-weighted geometric normal, (b - a) x (c - a) / 2: its length is the triangle's area, square metres.
-Vec3d areaNormal(const TriangleMesh& mesh, std::size_t triangle);
-
 /// Sides of triangle t and its neighbours over them: 3 per triangle, side c from corner c to c + 1; `noTriangle` at borders
 /// and where more than two triangles, or two that disagree about outside, meet.
 inline constexpr std::uint32_t noTriangle = 0xffffffffu;

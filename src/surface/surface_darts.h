@@ -9,18 +9,13 @@
 #include "core/random.h"
 #include "core/vec.h"
 #include "fluid/triangle_mesh.h"
+#include "surface/mesh_measures.h"
 
 namespace ebru {
 
 struct Dart {
   Vec3f position, normal;
 };
-
-inline float triangleArea(const TriangleMesh& mesh, std::size_t t) {
-  const Vec3i& tri = mesh.triangles[t];
-  const Vec3f& a = mesh.positions[tri[0]];
-  return 0.5f * (mesh.positions[tri[1]] - a).cross(mesh.positions[tri[2]] - a).norm();
-}
 
 /// A uniform random point of triangle t.
 inline Dart throwDart(const TriangleMesh& mesh, std::size_t t, Random& random) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <unordered_map>
 
-#include "core/parallel.h"
+#include "surface/mesh_measures.h"
 
 namespace ebru {
 namespace {
@@ -42,26 +42,34 @@ TriangleMesh halved(const TriangleMesh& mesh) {
 }  // namespace
 
 std::vector<unsigned char> rimVertices(std::span<const Vec3i> triangles, std::size_t vertexCount) {
-  std::vector<std::uint64_t> edges;
-  edges.reserve(3 * triangles.size());
-  for (const Vec3i& t : triangles)
-    for (int c = 0; c < 3; ++c) {
-      const auto [low, high] = std::minmax(t[c], t[(c + 1) % 3]);
-      edges.push_back(static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high));
-    }
-  std::sort(edges.begin(), edges.end());
+  // Edges by their lower vertex, the higher one of each.
+  std::vector<std::uint32_t> first(vertexCount + 1, 0), higher(3 * triangles.size());
+  const auto eachEdge = [&](const auto& f) {
+    for (const Vec3i& t : triangles)
+      for (int c = 0; c < 3; ++c) {
+        const auto [low, high] = std::minmax(t[c], t[(c + 1) % 3]);
+        f(static_cast<std::size_t>(low), static_cast<std::uint32_t>(high));
+      }
+  };
+  eachEdge([&](std::size_t low, std::uint32_t) { ++first[low + 1]; });
+  for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  eachEdge([&](std::size_t low, std::uint32_t high) { higher[next[low]++] = high; });
   std::vector<unsigned char> rim(vertexCount, 0);
-  for (std::size_t e = 0; e < edges.size();) {
-    std::size_t end = e + 1;
-    while (end < edges.size() && edges[end] == edges[e]) ++end;
-    if (end == e + 1) rim[edges[e] >> 32] = rim[edges[e] & 0xffffffffu] = 1;
-    e = end;
+  for (std::size_t v = 0; v < vertexCount; ++v) {
+    const auto begin = higher.begin() + first[v], end = higher.begin() + first[v + 1];
+    std::sort(begin, end);
+    for (auto edge = begin; edge != end;) {
+      const auto after = std::upper_bound(edge, end, *edge);
+      if (after - edge == 1) rim[v] = rim[*edge] = 1;
+      edge = after;
+    }
   }
   return rim;
 }
 
 SurfaceRim::SurfaceRim(const TriangleMesh& mesh)
-    : reachWorld_(std::max(1e-12f, 1.5f * meanEdge(mesh))), grid_(reachWorld_, 256) {
+    : reachWorld_(std::max(1e-12f, static_cast<float>(1.5 * meanEdge(mesh)))), grid_(reachWorld_, 256) {
   const std::vector<unsigned char> rim = rimVertices(mesh.triangles, mesh.positions.size());
   for (std::size_t v = 0; v < rim.size(); ++v) {
     if (!rim[v]) continue;
@@ -133,21 +141,9 @@ SurfacePiece PieceCutter::around(std::uint32_t seed, const Vec3f& centre, const 
   return piece;
 }
 
-float meanEdge(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return 0.0f;
-  const double sum = parallelSum(mesh.triangles.size(), [&](std::size_t t) {
-    const Vec3i& tri = mesh.triangles[t];
-    double lengths = 0.0;
-    for (int c = 0; c < 3; ++c)
-      lengths += (mesh.positions[static_cast<std::size_t>(tri[c])] - mesh.positions[static_cast<std::size_t>(tri[(c + 1) % 3])]).norm();
-    return lengths;
-  });
-  return static_cast<float>(sum / (3.0 * static_cast<double>(mesh.triangles.size())));
-}
-
 TriangleMesh refinedMesh(const TriangleMesh& mesh, float edgeWorld) {
   TriangleMesh result = mesh;
-  for (float edge = meanEdge(mesh); edge > edgeWorld; edge *= 0.5f) result = halved(result);
+  for (double edge = meanEdge(mesh); edge > edgeWorld; edge *= 0.5) result = halved(result);
   return result;
 }
 

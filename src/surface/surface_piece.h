@@ -62,7 +62,4 @@ class SurfaceRim {
 /// vertices lie on the middle of edges. @return `mesh` itself, copied, where it is fine enough
 TriangleMesh refinedMesh(const TriangleMesh& mesh, float edgeWorld);
 
-/// Mean length of a mesh's edges, metres; 0 if it has none.
-float meanEdge(const TriangleMesh& mesh);
-
 }  // namespace ebru

@@ -11,6 +11,7 @@
 
 #include "core/random.h"
 #include "fluid/fluid_sequence.h"
+#include "surface/mesh_measures.h"
 #include "surface/poisson_sampling.h"
 #include "texturing/particles/texture_transport.h"
 

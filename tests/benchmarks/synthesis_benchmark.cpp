@@ -1,6 +1,7 @@
 /// Carrying particles and making their texture, per 100,000 particles.
 
 #include "stage.h"
+#include "surface/mesh_measures.h"
 #include "surface/poisson_sampling.h"
 #include "texturing/particles/texture_transport.h"
 

@@ -68,4 +68,26 @@ void writePly(const std::string& path, const PlyMesh& mesh,
   }
 }
 
+MeshSequence openMeshes(const std::string& path, double velocityScale) {
+  FluidOptions options;
+  options.source = "mesh";
+  options.path = path;
+  options.velocity_scale = velocityScale;
+  return MeshSequence(options, 24.0);
+}
+
+double enclosedVolume(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const Vec3i& t : mesh.triangles)
+    sum += mesh.positions[t.x()].dot(mesh.positions[t.y()].cross(mesh.positions[t.z()])) / 6.0;
+  return sum;
+}
+
+Vec3f randomDirection(Random& random) {
+  for (;;) {
+    const Vec3f v(2 * random.uniform() - 1, 2 * random.uniform() - 1, 2 * random.uniform() - 1);
+    if (v.squaredNorm() < 1.0f && v.squaredNorm() > 0.01f) return v.normalized();
+  }
+}
+
 }  // namespace ebru::test

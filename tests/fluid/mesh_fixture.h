@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/random.h"
 #include "core/vec.h"
+#include "fluid/mesh_sequence.h"
 
 namespace ebru::test {
 
@@ -24,5 +26,13 @@ PlyMesh sheetMesh(int n, const std::function<double(double, double)>& height);
 void writePly(const std::string& path, const PlyMesh& mesh,
               const std::function<Vec3d(const Vec3d&)>& velocity,
               const std::vector<std::string>& names = {"vx", "vy", "vz"});
+
+/// Opens them as a cache of 24 frames per second.
+MeshSequence openMeshes(const std::string& path, double velocityScale = 1.0);
+
+/// Enclosed by a closed mesh, its normals outwards.
+double enclosedVolume(const TriangleMesh& mesh);
+
+Vec3f randomDirection(Random& random);
 
 }  // namespace ebru::test

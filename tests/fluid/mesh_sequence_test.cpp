@@ -1,5 +1,4 @@
-/// Mesh caches: distance, normals and velocity around closed and open meshes, and an answer for everything
-/// that can be wrong with a file.
+/// Mesh caches: distance, normals and velocity around closed and open meshes.
 
 #include "fluid/mesh_sequence.h"
 
@@ -13,9 +12,8 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "expect_contains.h"
 #include "fluid/flow.h"
-#include "fluid/mesh_sides.h"
-#include "fluid/polygon.h"
 #include "fluid/velocity_check.h"
 #include "mesh_fixture.h"
 #include "vdb_fixture.h"
@@ -23,15 +21,15 @@
 namespace ebru {
 namespace {
 
+using test::enclosedVolume;
+using test::openMeshes;
 using test::PlyMesh;
+using test::randomDirection;
 using test::sheetMesh;
 using test::sphereMesh;
 using test::TemporaryFolder;
 using test::writePly;
 using Velocity = std::function<Vec3d(const Vec3d&)>;
-
-#define EXPECT_CONTAINS(text, part) \
-  EXPECT_NE((text).find(part), std::string::npos) << "in: " << (text) << "\nno: " << (part)
 
 const Vec3d spin(0.3, -0.2, 1.0);  ///< rad/s
 Vec3d rotation(const Vec3d& p) {
@@ -47,56 +45,10 @@ double wavy(double x, double y) {
   return 0.1 * std::sin(3.0 * x) * std::cos(2.0 * y);
 }
 
-MeshSequence sequenceOf(const std::string& path, double velocityScale = 1.0) {
-  FluidOptions options;
-  options.source = "mesh";
-  options.path = path;
-  options.velocity_scale = velocityScale;
-  return MeshSequence(options, 24.0);
-}
-
 std::shared_ptr<const FluidFrame> loadOne(const TemporaryFolder& folder, const PlyMesh& mesh,
                                           const Velocity& velocity, double velocityScale = 1.0) {
   writePly(folder.file("f.0001.ply"), mesh, velocity);
-  return sequenceOf(folder.file("f.####.ply"), velocityScale).load(1);
-}
-
-/// Of the InputError that loading a file of that content throws; empty when it does not.
-std::string complaint(const std::string& content) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.file("f.0001.ply"), std::ios::binary) << content;
-  try {
-    sequenceOf(folder.file("f.####.ply")).load(1);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
-}
-
-/// A triangle, with what the tests of bad files replace.
-std::string triangleFile(const std::string& velocityNames = "vx vy vz",
-                         const std::string& lastVertex = "0 1 0 0 0 0", const std::string& face = "3 0 1 2") {
-  std::string text =
-      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
-  std::istringstream names(velocityNames);
-  for (std::string name; names >> name;) text += "property float " + name + "\n";
-  return text +
-         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0 0\n1 0 0 0 0 0\n" +
-         lastVertex + "\n" + face + "\n";
-}
-
-Vec3f randomDirection(Random& random) {
-  for (;;) {
-    const Vec3f v(2 * random.uniform() - 1, 2 * random.uniform() - 1, 2 * random.uniform() - 1);
-    if (v.squaredNorm() < 1.0f && v.squaredNorm() > 0.01f) return v.normalized();
-  }
-}
-
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const Vec3i& t : mesh.triangles)
-    sum += mesh.positions[t.x()].dot(mesh.positions[t.y()].cross(mesh.positions[t.z()])) / 6.0;
-  return sum;
+  return openMeshes(folder.file("f.####.ply"), velocityScale).load(1);
 }
 
 TEST(MeshSequence, KeepsTheFilesMesh) {
@@ -131,8 +83,8 @@ TEST(MeshSequence, ClosestPointAndSignOnAClosedSphere) {
     ASSERT_NEAR(d[0], off, 0.039f * 0.039f / 4.0f / 0.5f + 0.01f * voxel);
     ASSERT_TRUE(frame->closestPoint(p, q, n));
     ASSERT_NEAR(q.norm(), 0.5f, 0.039f * 0.039f / 4.0f / 0.5f + 0.01f * voxel);
-    // A facet's normal is up to h / 2 r sqrt(2) = 0.055 off the radius: 2.5 voxels of way slip by 0.0021 sideways;
-    // the steps settle within 0.1 voxel.
+    // A facet's normal is up to h / 2 r sqrt(2) = 0.055 off the radius: 2.5 voxels of way slip by 0.0021
+    // sideways; the steps settle within 0.1 voxel.
     ASSERT_LT((q - 0.5f * direction).norm(), 0.0021f + 0.1f * voxel);
     ASSERT_GT(n.dot(direction), 0.995f);
   }
@@ -206,8 +158,8 @@ TEST(MeshSequence, VelocityCheckFindsTheScaleOfAMovingSphere) {
              [](const Vec3d&) { return Vec3d(1.2, 0.0, 0.0); });
     for (Vec3d& p : sphere.positions) p.x() += 0.1;
   }
-  EXPECT_NEAR(checkVelocity(sequenceOf(folder.file("f.####.ply")), 1, 3, 2).scale, 2.0, 0.02);
-  const VelocityCheck right = checkVelocity(sequenceOf(folder.file("f.####.ply"), 2.0), 1, 3, 2);
+  EXPECT_NEAR(checkVelocity(openMeshes(folder.file("f.####.ply")), 1, 3, 2).scale, 2.0, 0.02);
+  const VelocityCheck right = checkVelocity(openMeshes(folder.file("f.####.ply"), 2.0), 1, 3, 2);
   EXPECT_EQ(right.verdict, VelocityCheck::Verdict::agrees);
   EXPECT_LT(right.residualVoxels, 0.05);
 }
@@ -257,7 +209,7 @@ TEST(MeshSequence, AClosedMeshThatIsInsideOutIsTurned) {
   PlyMesh sphere = sphereMesh(0.5, 20);
   for (std::vector<int>& face : sphere.faces) std::swap(face[0], face[1]);
   const auto frame = loadOne(folder, sphere, rest);
-  EXPECT_GT(volume(frame->mesh), 0.0);
+  EXPECT_GT(enclosedVolume(frame->mesh), 0.0);
   Vec3f n;
   ASSERT_TRUE(frame->normalAt(Vec3f(0.5f, 0.0f, 0.0f), n));
   EXPECT_GT(n.x(), 0.99f);
@@ -293,7 +245,7 @@ TEST(MeshSequence, ACubeOfTwelveTrianglesIsSampledFinely) {
   cube.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   const auto frame = loadOne(folder, cube, rest);
   EXPECT_EQ(frame->mesh.triangles.size(), 12u);
-  EXPECT_NEAR(volume(frame->mesh), 1.0, 1e-6);
+  EXPECT_NEAR(enclosedVolume(frame->mesh), 1.0, 1e-6);
   Vec3f q, n;
   ASSERT_TRUE(frame->closestPoint(Vec3f(0.3f, 0.6f, 1.02f), q, n));
   EXPECT_LT((q - Vec3f(0.3f, 0.6f, 1.0f)).norm(), 1e-4f);
@@ -339,7 +291,7 @@ TEST(MeshSequence, DoesNotDependOnTheThreads) {
   std::vector<std::shared_ptr<const FluidFrame>> frames;
   for (const int threads : {1, 2, 5}) {
     const ThreadLimit limit(threads);
-    frames.push_back(sequenceOf(folder.file("f.ply")).load(1));
+    frames.push_back(openMeshes(folder.file("f.ply")).load(1));
   }
   Random random(5, 0, 0);
   for (int i = 0; i < 5000; ++i) {
@@ -367,135 +319,6 @@ TEST(MeshSequence, AnEmptyMeshIsAnEmptyFrame) {
     Vec3f q, n;
     EXPECT_FALSE(frame->closestPoint(Vec3f::Zero(), q, n));
     EXPECT_FALSE(frame->velocity->sample(Vec3f::Zero(), q));
-  }
-  EXPECT_EQ(complaint("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n"), "");
-}
-
-TEST(MeshSequenceErrors, MissingFrame) {
-  const TemporaryFolder folder;
-  for (const char* name : {"f.0001.ply", "f.0003.ply"}) writePly(folder.file(name), sphereMesh(0.5, 8), rest);
-  try {
-    sequenceOf(folder.file("f.####.ply")).load(2);
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_CONTAINS(std::string(e.what()), "f.0002.ply: frame 2: got no such file");
-  }
-  EXPECT_THROW(sequenceOf(folder.file("g.####.ply")), InputError);
-}
-
-TEST(MeshSequenceErrors, WrongMagic) {
-  EXPECT_CONTAINS(complaint("v 0 0 0\n"), "f.0001.ply: magic: got");
-}
-
-TEST(MeshSequenceErrors, Truncated) {
-  const std::string whole = triangleFile();
-  EXPECT_EQ(complaint(whole), "");
-  EXPECT_CONTAINS(complaint(whole.substr(0, whole.size() - 3)), "face 0 of 1");
-}
-
-TEST(MeshSequenceErrors, NoVelocityNamesThePropertiesThereAre) {
-  const std::string text = complaint(triangleFile("u v w"));
-  EXPECT_CONTAINS(
-      text,
-      "f.0001.ply: velocity of the vertices: got properties x y z u v w, expected vx vy vz or velocity_x");
-  EXPECT_CONTAINS(text, "; write the velocity");
-}
-
-TEST(MeshSequenceErrors, NoFaces) {
-  EXPECT_CONTAINS(complaint("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"),
-                  "surface: got vertex (1: x), expected elements vertex and face");
-}
-
-TEST(MeshSequenceErrors, IndexWithoutAVertex) {
-  EXPECT_CONTAINS(complaint(triangleFile("vx vy vz", "0 1 0 0 0 0", "3 0 1 3")),
-                  "got vertex 3, expected 0 to 2");
-  EXPECT_CONTAINS(complaint(triangleFile("vx vy vz", "0 1 0 0 0 0", "3 0 1 -1")),
-                  "got vertex -1, expected 0 to 2");
-}
-
-TEST(MeshSequenceErrors, PositionThatIsNotFinite) {
-  EXPECT_CONTAINS(complaint(triangleFile("vx vy vz", "0 nan 0 0 0 0")),
-                  "vertex 2 of 3, property \"y\": got nan");
-}
-
-TEST(MeshSequenceErrors, VelocityThatIsNotFinite) {
-  EXPECT_CONTAINS(complaint(triangleFile("vx vy vz", "0 1 0 0 0 inf")),
-                  "vertex 2 of 3, property \"vz\": got inf");
-}
-
-TEST(MeshSequenceErrors, VelocityBeyondReason) {
-  EXPECT_CONTAINS(complaint(triangleFile("vx vy vz", "0 1 0 9e5 0 0")), "set fluid.velocity_scale");
-}
-
-TEST(MeshSequenceErrors, TooFarFromTheOrigin) {
-  EXPECT_CONTAINS(
-      complaint(
-          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-          "property float vx\nproperty float vy\nproperty float vz\nelement face 1\n"
-          "property list uchar int vertex_index\nend_header\n"
-          "1e6 0 0 0 0 0\n1000001 0 0 0 0 0\n1e6 1 0 0 0 0\n3 0 1 2\n"),
-      "move the cache nearer");
-}
-
-TEST(Polygon, ReflexCornersStayOutside) {
-  // An arrow head, and an L of six corners.
-  for (const std::vector<Vec3f>& p :
-       {std::vector<Vec3f>{{0, 0, 0}, {2, -2, 0}, {0, 4, 0}, {-2, -2, 0}},
-        std::vector<Vec3f>{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}}) {
-    std::vector<int> corners;
-    float twiceArea = 0.0f, sum = 0.0f;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      corners.push_back(static_cast<int>(i));
-      twiceArea += p[i].cross(p[(i + 1) % p.size()]).z();
-    }
-    std::vector<Vec3i> triangles;
-    triangulate(corners, p, triangles);
-    ASSERT_EQ(triangles.size(), p.size() - 2);
-    for (const Vec3i& t : triangles) {
-      const float z = (p[t.y()] - p[t.x()]).cross(p[t.z()] - p[t.x()]).z();
-      EXPECT_GE(z, 0.0f);
-      sum += z;
-    }
-    EXPECT_FLOAT_EQ(sum, twiceArea);
-  }
-}
-
-TEST(Polygon, AQuadIsCutAlongItsShorterDiagonal) {
-  const std::vector<Vec3f> p{{0, 0, 0}, {2, 1, 0}, {4, 0, 0}, {2, -1, 0}};
-  std::vector<Vec3i> triangles;
-  triangulate({3, 2, 1, 0}, p, triangles);
-  ASSERT_EQ(triangles.size(), 2u);
-  for (const Vec3i& t : triangles) EXPECT_TRUE((t.array() == 1).any() && (t.array() == 3).any());
-}
-
-TEST(MeshSides, NearestOfASliver) {
-  const Vec3f a(3.0f, 1.0f, 0.0f), b(4.0f, 1.0f, 0.0f), c(3.3f, 1.0f + 3e-6f, 0.0f);
-  for (int i = 0; i <= 20; ++i) {
-    const Vec3f foot(3.0f + 0.05f * static_cast<float>(i), 1.0f, 0.0f);
-    const NearestOnTriangle nearest = nearestOnTriangle(foot + Vec3f(0.0f, 0.0f, 0.5f), a, b, c);
-    EXPECT_NEAR(std::sqrt(nearest.squared), 0.5f, 1e-5f);
-    EXPECT_NEAR(nearest.barycentric.sum(), 1.0f, 1e-5f);
-    EXPECT_GE(nearest.barycentric.minCoeff(), -1e-5f);
-  }
-}
-
-TEST(MeshSides, NearestOfATriangleIsTheNearestOfManyOfItsPoints) {
-  Random random(11, 0, 0);
-  for (int i = 0; i < 300; ++i) {
-    const Vec3f a = randomDirection(random), b = randomDirection(random), c = randomDirection(random);
-    const Vec3f p = 1.5f * randomDirection(random);
-    const NearestOnTriangle nearest = nearestOnTriangle(p, a, b, c);
-    float best = 1e9f;
-    for (int u = 0; u <= 60; ++u)
-      for (int v = 0; u + v <= 60; ++v)
-        best = std::min(best, (p - (static_cast<float>(u) * a + static_cast<float>(v) * b +
-                                    static_cast<float>(60 - u - v) * c) /
-                                       60.0f)
-                                  .norm());
-    ASSERT_LE(std::sqrt(nearest.squared), best + 1e-5f);
-    ASSERT_GT(std::sqrt(nearest.squared), best - 0.03f);
-    ASSERT_NEAR(nearest.barycentric.sum(), 1.0f, 1e-5f);
-    ASSERT_GE(nearest.barycentric.minCoeff(), -1e-5f);
   }
 }
 

@@ -1,5 +1,6 @@
 /// The zoo is what its names promise, and every frame keeps the invariants of FluidFrame.
 
+#include "mesh_fixture.h"
 #include "zoo.h"
 
 #include <gtest/gtest.h>
@@ -27,13 +28,6 @@ int pieces(const TriangleMesh& mesh) {
   int count = 0;
   for (int i = 0; i < static_cast<int>(parent.size()); ++i) count += used[i] && root(i) == i;
   return count;
-}
-
-double volume(const TriangleMesh& mesh) {
-  double sum = 0.0;
-  for (const Vec3i& t : mesh.triangles)
-    sum += mesh.positions[t.x()].dot(mesh.positions[t.y()].cross(mesh.positions[t.z()])) / 6.0;
-  return sum;
 }
 
 TEST(Zoo, PiecesComeTogetherAndPart) {
@@ -65,7 +59,7 @@ TEST(Zoo, EveryFrameKeepsTheContract) {
       EXPECT_LT(mesh.triangles.size(), 12000u);
       EXPECT_EQ(mesh.empty(), frame->signedDistance.empty());
       if (mesh.empty()) continue;
-      EXPECT_GT(volume(mesh), 0.0) << "triangles turn the wrong way";
+      EXPECT_GT(test::enclosedVolume(mesh), 0.0) << "triangles turn the wrong way";
       EXPECT_GE(frame->bandWorld, 2.95f * frame->voxelSizeWorld);
       std::map<std::pair<int, int>, int> edges;
       for (const Vec3i& t : mesh.triangles) {

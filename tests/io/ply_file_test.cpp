@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "expect_contains.h"
+#include "folder.h"
 
 namespace ebru {
 namespace {
@@ -18,15 +20,6 @@ namespace fs = std::filesystem;
 
 class Ply : public testing::Test {
  protected:
-  void SetUp() override {
-    folder = fs::path(testing::TempDir()) /
-             (std::string("ebru_ply_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    path = folder / "f.ply";
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   PlyFile read(const std::string& content, const PlyWanted& wanted = {}) const {
     std::ofstream(path, std::ios::binary) << content;
     return readPly(path, wanted);
@@ -41,11 +34,9 @@ class Ply : public testing::Test {
     return "";
   }
 
-  fs::path folder, path;
+  const test::Folder folder;
+  const fs::path path = folder / "f.ply";
 };
-
-#define EXPECT_CONTAINS(text, part) \
-  EXPECT_NE((text).find(part), std::string::npos) << "in: " << (text) << "\nno: " << (part)
 
 /// A value as a file of that byte order holds it.
 template <class T>
@@ -128,7 +119,7 @@ TEST_F(Ply, ElementsOfNoRecordsOrNoProperties) {
 
 TEST_F(Ply, MissingFileAndFolder) {
   EXPECT_THROW(readPly(folder / "nowhere.ply"), InputError);
-  EXPECT_THROW(readPly(folder), InputError);
+  EXPECT_THROW(readPly(folder.path()), InputError);
 }
 
 TEST_F(Ply, WrongMagic) {

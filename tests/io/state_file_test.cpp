@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "folder.h"
 #include "io/atomic_file.h"
 
 namespace ebru {
@@ -16,14 +17,6 @@ namespace fs = std::filesystem;
 
 class StateFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder = fs::path(testing::TempDir()) /
-             (std::string("ebru_state_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder);
-    path = folder / "shot.0001.state";
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
   void writeSample() const {
     StateWriter writer;
     writer.array("ids", std::vector<std::uint32_t>{3, 1, 2});
@@ -37,7 +30,8 @@ class StateFile : public testing::Test {
   }
   void replaceBytes(const std::string& text) const { std::ofstream(path, std::ios::binary) << text; }
 
-  fs::path folder, path;
+  const test::Folder folder;
+  const fs::path path = folder / "states" / "shot.0001.state";  // in a folder that has to be made
 };
 
 TEST_F(StateFile, ReturnsWhatWasWritten) {
@@ -101,7 +95,7 @@ TEST_F(StateFile, AFailedWriteLeavesTheOldFileAndNoTemporary) {
                }),
                OutputError);
   EXPECT_EQ(before, bytes());
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), {}), 1);
 }
 
 TEST_F(StateFile, UnwritableFolderIsAnOutputError) {
@@ -109,14 +103,13 @@ TEST_F(StateFile, UnwritableFolderIsAnOutputError) {
 }
 
 TEST_F(StateFile, StaleTemporariesOfDeadProcessesAreRemoved) {
-  fs::create_directories(folder);
   char host[256] = {};
   gethostname(host, sizeof host - 1);
   const fs::path stale = folder / ("a.tmp." + std::string(host) + ".2147483000.0.exr");
   std::ofstream(stale) << "x";
   const fs::path own = folder / ("b.tmp." + std::string(host) + "." + std::to_string(getpid()) + ".0.exr");
   std::ofstream(own) << "x";
-  removeStaleTemporaries(folder);
+  removeStaleTemporaries(folder.path());
   EXPECT_FALSE(fs::exists(stale));
   EXPECT_TRUE(fs::exists(own));
 }

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "grid_mesh.h"
 
 namespace ebru {
 namespace {
@@ -16,15 +17,9 @@ struct Piece {
 /// A grid of n x n squares, each cut in two, put in space by `place` of (0..1)^2.
 template <class Place>
 Piece grid(int n, const Place& place) {
-  Piece piece;
-  for (int y = 0; y <= n; ++y)
-    for (int x = 0; x <= n; ++x) piece.positions.push_back(place(static_cast<float>(x) / static_cast<float>(n), static_cast<float>(y) / static_cast<float>(n)));
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) {
-      const int a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
-      piece.triangles.emplace_back(a, b, d);
-      piece.triangles.emplace_back(a, d, c);
-    }
+  const auto [places, triangles] = test::gridMesh(n);
+  Piece piece{{}, triangles};
+  for (const Vec2f& p : places) piece.positions.push_back(place(p.x(), p.y()));
   return piece;
 }
 

@@ -1,4 +1,5 @@
 #include "surface/poisson_sampling.h"
+#include "surface/mesh_measures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "surface/surface_atlas.h"
+#include "surface/mesh_measures.h"
 
 #include <gtest/gtest.h>
 

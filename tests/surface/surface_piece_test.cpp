@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "surface/mesh_measures.h"
 #include "surface/poisson_sampling.h"
 #include "zoo.h"
 

@@ -49,12 +49,6 @@ class EveryMethod : public ::testing::TestWithParam<std::string> {
     run([&](const TextureMethod& m, std::size_t) { result.push_back(state(m)); });
     return result;
   }
-  TextureParticles particlesOf(const TextureMethod& m) const {
-    TextureParticles particles;
-    test::stateOf(m, folder_ / "particles");
-    particles.load(StateReader(folder_ / "particles", "test"));
-    return particles;
-  }
 
   const test::Folder folder_;
   zoo::Fluid fluid_;
@@ -76,49 +70,6 @@ TEST_P(EveryMethod, CoversEveryPointWithFiniteValues) {
       }
       EXPECT_EQ(holes, 0);
       EXPECT_EQ(wrong, 0);
-    });
-  });
-}
-
-TEST_P(EveryMethod, ParticlesHaveUnitFramesAndStableIds) {
-  if (!test::hasParticles(GetParam())) GTEST_SKIP() << "no particles";
-  onEveryAnimal(test::discs, [&] {
-    std::map<std::uint32_t, Vec3f> before;
-    std::uint32_t nextId = 0;
-    run([&](const TextureMethod& m, std::size_t k) {
-      SCOPED_TRACE("frame " + std::to_string(frames()[k]->frame));
-      const TextureParticles p = particlesOf(m);
-      if (frames()[k]->mesh.empty())
-        EXPECT_EQ(p.size(), 0u);
-      else
-        EXPECT_GT(p.size(), 100u);
-      EXPECT_LT(p.size(), 3000u);
-      const std::optional<Flow> flow =
-          k ? std::optional<Flow>(Flow(frames()[k - 1].get(), frames()[k].get())) : std::nullopt;
-      std::map<std::uint32_t, Vec3f> now;
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < p.size(); ++i) {
-        ASSERT_NEAR(p.normal[i].norm(), 1.0f, 1e-4f);
-        ASSERT_NEAR(p.orientation[i].norm(), 1.0f, 1e-4f);
-        ASSERT_NEAR(p.orientation[i].dot(p.normal[i]), 0.0f, 2e-3f);
-        ASSERT_TRUE(p.st[i].allFinite() && p.jacobian[i].allFinite() && p.colour[i].isFinite().all());
-        ASSERT_GT(p.jacobian[i].determinant(), 0.0f) << "folded";
-        ASSERT_TRUE(now.emplace(p.id[i], p.position[i]).second) << "two particles with one id";
-        ASSERT_LT(p.id[i], p.nextId);
-        const auto old = before.find(p.id[i]);
-        if (old == before.end()) {
-          ASSERT_GE(p.id[i], nextId) << "an id that was free once has come back";
-        } else {
-          ++kept;
-          ASSERT_LT((flow->forward(old->second) - p.position[i]).norm(), 2.0f * zoo::voxelSizeWorld);
-        }
-      }
-      // What two frames share moves by a fraction of a voxel to a voxel in the zoo: most particles stay with
-      // it.
-      const bool shared = !before.empty() && !p.position.empty() && fluid_.name != "vanishing";
-      EXPECT_TRUE(!shared || options_.transport == "grid" || kept > before.size() * 3 / 4) << kept << " of " << before.size();
-      before = now;
-      nextId = p.nextId;
     });
   });
 }
@@ -169,6 +120,62 @@ TEST_P(EveryMethod, ConstantExemplarIsThatConstant) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Zoo, EveryMethod, ::testing::ValuesIn(test::methodVariants()),
+                         [](const auto& info) { return info.param; });
+
+/// Those whose state is texture particles.
+class ParticleMethods : public EveryMethod {
+ protected:
+  TextureParticles particlesOf(const TextureMethod& m) const {
+    TextureParticles particles;
+    test::stateOf(m, folder_ / "particles");
+    particles.load(StateReader(folder_ / "particles", "test"));
+    return particles;
+  }
+};
+
+TEST_P(ParticleMethods, ParticlesHaveUnitFramesAndStableIds) {
+  onEveryAnimal(test::discs, [&] {
+    std::map<std::uint32_t, Vec3f> before;
+    std::uint32_t nextId = 0;
+    run([&](const TextureMethod& m, std::size_t k) {
+      SCOPED_TRACE("frame " + std::to_string(frames()[k]->frame));
+      const TextureParticles p = particlesOf(m);
+      if (frames()[k]->mesh.empty())
+        EXPECT_EQ(p.size(), 0u);
+      else
+        EXPECT_GT(p.size(), 100u);
+      EXPECT_LT(p.size(), 3000u);
+      const std::optional<Flow> flow =
+          k ? std::optional<Flow>(Flow(frames()[k - 1].get(), frames()[k].get())) : std::nullopt;
+      std::map<std::uint32_t, Vec3f> now;
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        ASSERT_NEAR(p.normal[i].norm(), 1.0f, 1e-4f);
+        ASSERT_NEAR(p.orientation[i].norm(), 1.0f, 1e-4f);
+        ASSERT_NEAR(p.orientation[i].dot(p.normal[i]), 0.0f, 2e-3f);
+        ASSERT_TRUE(p.st[i].allFinite() && p.jacobian[i].allFinite() && p.colour[i].isFinite().all());
+        ASSERT_GT(p.jacobian[i].determinant(), 0.0f) << "folded";
+        ASSERT_TRUE(now.emplace(p.id[i], p.position[i]).second) << "two particles with one id";
+        ASSERT_LT(p.id[i], p.nextId);
+        const auto old = before.find(p.id[i]);
+        if (old == before.end()) {
+          ASSERT_GE(p.id[i], nextId) << "an id that was free once has come back";
+        } else {
+          ++kept;
+          ASSERT_LT((flow->forward(old->second) - p.position[i]).norm(), 2.0f * zoo::voxelSizeWorld);
+        }
+      }
+      // What two frames share moves by a fraction of a voxel to a voxel in the zoo: most particles stay with
+      // it.
+      const bool shared = !before.empty() && !p.position.empty() && fluid_.name != "vanishing";
+      EXPECT_TRUE(!shared || options_.transport == "grid" || kept > before.size() * 3 / 4) << kept << " of " << before.size();
+      before = now;
+      nextId = p.nextId;
+    });
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Zoo, ParticleMethods, ::testing::ValuesIn(test::particleVariants()),
                          [](const auto& info) { return info.param; });
 
 using OnOneAnimal = test::EachMethod;

@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "fluid/analytic_frame.h"
+#include "folder.h"
 #include "io/image_file.h"
+#include "surface/mesh_measures.h"
 #include "surface/orientation_field.h"
 #include "surface/poisson_sampling.h"
 #include "texturing/particles/texture_particles.h"
@@ -22,29 +24,6 @@
 #include "zoo.h"
 
 namespace ebru::test {
-
-/// A folder of the running test, gone with it.
-class Folder {
- public:
-  Folder() {
-    const ::testing::TestInfo* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("ebru_") + info->test_suite_name() + "_" + info->name();
-    for (char& c : name)
-      if (c == '/') c = '_';
-    path_ = std::filesystem::path(::testing::TempDir()) / name;
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 using TexelFunction = std::function<Texel(int, int)>;
 
@@ -148,6 +127,11 @@ inline void choose(const std::string& variant, TextureOptions& options) {
 
 /// Whether a method's state is texture particles.
 inline bool hasParticles(const std::string& variant) { return !variant.starts_with("erosion"); }
+inline std::vector<std::string> particleVariants() {
+  std::vector<std::string> names = methodVariants();
+  std::erase_if(names, [](const std::string& name) { return !hasParticles(name); });
+  return names;
+}
 
 /// Tests of one method after another, on fluids of the zoo.
 class EachMethod : public ::testing::TestWithParam<std::string> {

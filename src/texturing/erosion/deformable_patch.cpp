@@ -17,7 +17,8 @@ std::array<std::size_t, 3> corners(const Vec3i& t) {
   return {static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]), static_cast<std::size_t>(t[2])};
 }
 
-/// Singular values of the map from the triangle's plane to its place in the patch. `area` is twice the surface's.
+/// Singular values of the map from the triangle's plane to its place in the patch. `area` is twice the
+/// surface's.
 float distortionOf(const DeformablePatch& patch, const Vec3i& triangle, float& area) {
   const auto [i, j, k] = corners(triangle);
   const Vec3f b = patch.position[j] - patch.position[i], c = patch.position[k] - patch.position[i];
@@ -81,7 +82,8 @@ struct CarriedVertex {
 CarriedVertex carried(const Flow& flow, const FluidFrame& to, float mostWorld, const Vec3f& from) {
   CarriedVertex vertex;
   const Vec3f there = flow.forward(from);
-  vertex.onSurface = to.closestPoint(there, vertex.position, vertex.normal) && (vertex.position - there).norm() <= mostWorld;
+  vertex.onSurface =
+      to.closestPoint(there, vertex.position, vertex.normal) && (vertex.position - there).norm() <= mostWorld;
   // The surface is known to a tenth of a voxel; a point that rests need not follow less.
   if (there == from && vertex.onSurface && (vertex.position - from).norm() <= 0.1f * to.voxelSizeWorld)
     vertex.position = from;
@@ -98,7 +100,8 @@ void measure(float radiusWorld, float maxDistortion, DeformablePatch& patch) {
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     float area = 0.0f;
     patch.distortion[t] = distortionOf(patch, patch.triangles[t], area);
-    const float quality = std::clamp((maxDistortion - patch.distortion[t]) / (maxDistortion - 1.0f), 0.0f, 1.0f);
+    const float quality =
+        std::clamp((maxDistortion - patch.distortion[t]) / (maxDistortion - 1.0f), 0.0f, 1.0f);
     for (const std::size_t v : corners(patch.triangles[t])) {
       patch.quality[v] += area * quality;
       areas[v] += area;
@@ -110,7 +113,8 @@ void measure(float radiusWorld, float maxDistortion, DeformablePatch& patch) {
     if (patch.rest[v].norm() <= centreRadius * radiusWorld || patch.atEnd[v]) patch.rim[v] = 0;
   }
   patch.weight = rimNearness(patch, radiusWorld);
-  for (std::size_t v = 0; v < patch.weight.size(); ++v) patch.weight[v] = patch.quality[v] * (1.0f - patch.weight[v]);
+  for (std::size_t v = 0; v < patch.weight.size(); ++v)
+    patch.weight[v] = patch.quality[v] * (1.0f - patch.weight[v]);
 }
 
 bool carry(const Flow& flow, const FluidFrame& to, float radiusWorld, DeformablePatch& patch) {
@@ -183,7 +187,8 @@ std::vector<DeformablePatch> loadPatches(const StateReader& reader) {
   const auto identities = reader.array<PatchIdentity>("patch");
   const auto vertexCounts = reader.array<std::uint32_t>("vertexCount");
   const auto triangleCounts = reader.array<std::uint32_t>("triangleCount");
-  const auto seenCounts = reader.array<std::uint32_t>("seenCount"), seen = reader.array<std::uint32_t>("seen");
+  const auto seenCounts = reader.array<std::uint32_t>("seenCount"),
+             seen = reader.array<std::uint32_t>("seen");
   const auto position = reader.array<Vec3f>("position");
   const auto rest = reader.array<Vec2f>("rest");
   const auto atEnd = reader.array<unsigned char>("atEnd");

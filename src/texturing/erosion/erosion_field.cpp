@@ -64,7 +64,8 @@ TextureSample ErosionField::oldest(const SurfacePoint& point) const {
   PatchLayers::Layer leastEroded{};
   float largest = -std::numeric_limits<float>::infinity(), through = 1.0f;
   const auto look = [&](const PatchLayers::Layer& layer) {
-    const Keeping kept = texture_->erosion.keeping(layers_->identity(layer.patch), layers_->cells(layer.patch), layer.rest, layer.weight);
+    const Keeping kept = texture_->erosion.keeping(layers_->identity(layer.patch),
+                                                   layers_->cells(layer.patch), layer.rest, layer.weight);
     if (kept.opacity > 0.0f) blend.add(layer, through * kept.opacity);
     through *= 1.0f - kept.opacity;
     if (kept.margin > largest) {
@@ -87,7 +88,9 @@ TextureSample ErosionField::oldest(const SurfacePoint& point) const {
 TextureSample ErosionField::blended(const SurfacePoint& point) const {
   Blend blend(*this, point.footprintWorld);
   const auto add = [&](const PatchLayers::Layer& layer) {
-    blend.add(layer, std::max(1e-6f, layer.weight * layers_->identity(layer.patch).presence));
+    const PatchIdentity& patch = layers_->identity(layer.patch);
+    const float weight = texture_->erosion.inImage(patch, layer.rest) ? layer.weight * patch.presence : 0.0f;
+    blend.add(layer, std::max(1e-6f, weight));  // a little of anything is better than a hole
     return false;
   };
   layers_->visit(point.position, point.normal, add);
@@ -98,7 +101,8 @@ TextureSample ErosionField::blended(const SurfacePoint& point) const {
 /// Everything but what the exemplar's maps say.
 void ErosionField::describe(const PatchLayers::Layer& layer, TextureSample& sample) const {
   const PatchIdentity& patch = layers_->identity(layer.patch);
-  const Exemplar::Place place = texture_->exemplar->normalised(patch.centreSt + layer.rest / texture_->texelWorld);
+  const Exemplar::Place place =
+      texture_->exemplar->normalised(patch.centreSt + layer.rest / texture_->texelWorld);
   sample.st = place.st;
   sample.exemplar = place.tile;
   sample.id = static_cast<float>(patch.id);

@@ -20,15 +20,16 @@ struct PatchTexture {
   Showing showing;
 
   /// @param wholeFeatures  whether features are eroded as a whole
-  PatchTexture(std::shared_ptr<const Exemplar> exemplar, FeatureMap features, bool wholeFeatures, float radiusWorld,
-               float texelWorld, float epsilon, float softness, Showing showing);
+  PatchTexture(std::shared_ptr<const Exemplar> exemplar, FeatureMap features, bool wholeFeatures,
+               float radiusWorld, float texelWorld, float epsilon, float softness, Showing showing);
   PatchTexture(const PatchTexture&) = delete;
   PatchTexture& operator=(const PatchTexture&) = delete;
 };
 
-/// The texture of deformable lapped patches, resolved at the ray hit: of the patches over a point the oldest that is not
-/// eroded there [Gagnon 2021, sec. 5.1], and through it, as far as it has faded, the next. Where all are eroded, holes smaller than the places coverage looks at, the least eroded;
-/// over no patch at all, a hole. With Showing::blended the mean of all, by their weights [Gagnon 2019].
+/// The texture of deformable lapped patches, resolved at the ray hit: of the patches over a point the oldest
+/// that is not eroded there [Gagnon 2021, sec. 5.1], and through it, as far as it has faded, the next. Where
+/// all are eroded, in holes smaller than the places coverage looks at, the least eroded; over no patch at
+/// all, a hole. With Showing::blended the mean of all, by their weights [Gagnon 2019].
 class ErosionField : public TextureField {
  public:
   ErosionField(std::shared_ptr<const PatchTexture> texture, std::shared_ptr<const PatchLayers> layers)

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "exemplar/feature_size.h"
-#include "surface/poisson_sampling.h"
+#include "surface/mesh_measures.h"
 #include "texturing/erosion/erosion_field.h"
 #include "texturing/open_exemplar.h"
 
@@ -15,7 +15,8 @@ namespace ebru {
 namespace {
 
 constexpr float radiusFeatures = 5.0f;
-/// Patches are copied from triangles whose edges are at most so long, in radii: a coarser surface is refined first.
+/// Patches are copied from triangles whose edges are at most so long, in radii: a coarser surface is refined
+/// first.
 constexpr float longestEdge = 0.3f;
 /// Of a patch, what is counted on where places for patches are chosen, in radii.
 constexpr float countedRadius = 0.75f;
@@ -29,7 +30,8 @@ FeatureMap featureMapOf(const Exemplar& exemplar, const ErosionOptions& options)
   const bool any = wanted == "auto";
   if (wanted == "image" || (any && !options.feature_image.empty())) {
     if (options.feature_image.empty())
-      throw UsageError("texture.erosion.feature_image: got nothing, expected a file for feature_map = \"image\"");
+      throw UsageError(
+          "texture.erosion.feature_image: got nothing, expected a file for feature_map = \"image\"");
     return FeatureMap(exemplar, FeatureSource::image, options.feature_image);
   }
   if (wanted == "height" || (any && exemplar.hasHeight())) return FeatureMap(exemplar, FeatureSource::height);
@@ -40,7 +42,8 @@ FeatureMap featureMapOf(const Exemplar& exemplar, const ErosionOptions& options)
 /// In texels. A patch has to fit into every image of the exemplar.
 float radiusOf(const Exemplar& exemplar, const TextureOptions& options) {
   if (options.erosion.radius > 0.0) return static_cast<float>(options.erosion.radius);
-  const float feature = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(exemplar);
+  const float feature =
+      options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(exemplar);
   return std::min(radiusFeatures * feature, 0.5f * static_cast<float>(exemplar.smallestSize().minCoeff()));
 }
 
@@ -60,12 +63,14 @@ class ErosionMethod : public TextureMethod {
     measure(plan_.radiusWorld, plan_.maxDistortion, patch);
     texture_->erosion.judge(patch);
   }
-  void carryAll(const FluidFrame& from, const FluidFrame& to);
+  void carryAll(const FluidFrame& from, const FluidFrame& to, const SurfaceRim& rim);
   /// Drops patches that are not seen and covers what has no texture.
-  void coverFrame(const FluidFrame& frame);
-  void fillHoles(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim, std::vector<SurfacePlace> holes);
-  std::vector<SurfacePlace> nextPlaces(const std::vector<SurfacePlace>& holes, bool bare) const;
-  std::vector<DeformablePatch> makePatches(const PatchMaker& maker, const std::vector<SurfacePlace>& places);
+  void coverFrame(const FluidFrame& frame, const SurfaceRim& rim);
+  void fillHoles(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim,
+                 std::vector<SurfacePlace> holes);
+  std::vector<SurfacePlace> nextPlaces(const std::vector<SurfacePlace>& holes) const;
+  std::vector<DeformablePatch> makePatches(const PatchMaker& maker, const std::vector<SurfacePlace>& places,
+                                           float presence);
   void checkCount(const FluidFrame& frame, std::size_t count) const;
   void publish();
 
@@ -87,34 +92,31 @@ ErosionMethod::ErosionMethod(const TextureOptions& options, std::uint64_t seed, 
   plan_.maxDistortion = static_cast<float>(options_.max_distortion);
   plan_.randomOrientation = options_.orientation == "random";
   plan_.seed = seed;
-  texture_ = std::make_shared<const PatchTexture>(exemplar, featureMapOf(*exemplar, options_), options_.unit == "feature", plan_.radiusWorld, plan_.texelWorld,
-                                                  static_cast<float>(options_.epsilon), static_cast<float>(options_.softness),
-                                                  options_.fade == "alpha" ? Showing::blended : Showing::oldest);
+  texture_ = std::make_shared<const PatchTexture>(
+      exemplar, featureMapOf(*exemplar, options_), options_.unit == "feature", plan_.radiusWorld,
+      plan_.texelWorld, static_cast<float>(options_.epsilon), static_cast<float>(options_.softness),
+      options_.fade == "alpha" ? Showing::blended : Showing::oldest);
 }
 
 void ErosionMethod::start(const FluidFrame& first) {
   patches_.clear();
   nextId_ = 0;
-  coverFrame(first);
-  for (DeformablePatch& patch : patches_) patch.presence = 1.0f;
+  coverFrame(first, SurfaceRim(first.mesh));
   publish();
 }
 
 void ErosionMethod::advance(const FluidFrame& from, const FluidFrame& to, FramesAhead) {
+  const SurfaceRim rim(to.mesh);
   {
     const PhaseTimer timer(times_, "transport");
-    carryAll(from, to);
+    carryAll(from, to, rim);
   }
-  const bool bare = patches_.empty();
-  coverFrame(to);
-  if (bare)
-    for (DeformablePatch& patch : patches_) patch.presence = 1.0f;
+  coverFrame(to, rim);
   publish();
 }
 
-void ErosionMethod::carryAll(const FluidFrame& from, const FluidFrame& to) {
+void ErosionMethod::carryAll(const FluidFrame& from, const FluidFrame& to, const SurfaceRim& rim) {
   const Flow flow(&from, &to);
-  const SurfaceRim rim(to.mesh);
   parallelFor(patches_.size(), 4, [&](std::size_t i) {
     DeformablePatch& patch = patches_[i];
     patch.presence = std::min(1.0f, patch.presence + 1.0f / fadeInFrames);
@@ -124,13 +126,12 @@ void ErosionMethod::carryAll(const FluidFrame& from, const FluidFrame& to) {
   });
 }
 
-void ErosionMethod::coverFrame(const FluidFrame& frame) {
+void ErosionMethod::coverFrame(const FluidFrame& frame, const SurfaceRim& rim) {
   if (frame.mesh.empty()) {
     patches_.clear();
     return;
   }
   const TriangleMesh mesh = refinedMesh(frame.mesh, longestEdge * plan_.radiusWorld);
-  const SurfaceRim rim(frame.mesh);
   Coverage found;
   {
     const PhaseTimer timer(times_, "coverage");
@@ -146,39 +147,44 @@ void ErosionMethod::fillHoles(const FluidFrame& frame, const TriangleMesh& mesh,
                               std::vector<SurfacePlace> holes) {
   if (holes.empty()) return;
   const PatchMaker maker(frame, mesh, rim, *texture_->exemplar, texture_->erosion, plan_);
-  bool bare = patches_.empty();
+  // On a surface without any texture there is nothing to fade in over.
+  const float presence = patches_.empty() ? 1.0f : 1.0f / fadeInFrames;
   while (!holes.empty()) {
-    const std::vector<SurfacePlace> places = nextPlaces(holes, bare);
+    const std::vector<SurfacePlace> places = nextPlaces(holes);
     checkCount(frame, patches_.size() + places.size());
-    std::vector<DeformablePatch> made = makePatches(maker, places);
+    std::vector<DeformablePatch> made = makePatches(maker, places, presence);
     const PatchLayers layers(made);
     Coverage left = coverage(holes, layers, texture_->erosion, showing());
     keepSeen(left, layers, made);
     std::move(made.begin(), made.end(), std::back_inserter(patches_));
-    // A place whose own patch does not cover it, on the edge of a crumb of fluid, shows what is least eroded there.
+    // A place whose own patch does not cover it, on the edge of a crumb of fluid, shows what is least eroded
+    // there.
     std::erase_if(left.holes, [&](const SurfacePlace& hole) {
-      return std::any_of(places.begin(), places.end(), [&](const SurfacePlace& p) { return p.position == hole.position; });
+      return std::any_of(places.begin(), places.end(),
+                         [&](const SurfacePlace& p) { return p.position == hole.position; });
     });
     holes = std::move(left.holes);
-    bare = false;
   }
 }
 
-std::vector<SurfacePlace> ErosionMethod::nextPlaces(const std::vector<SurfacePlace>& holes, bool bare) const {
+std::vector<SurfacePlace> ErosionMethod::nextPlaces(const std::vector<SurfacePlace>& holes) const {
   if (options_.placement == "one_by_one") return {holes.front()};
   // A surface without any texture gets its first patches at Poisson-disk distance.
-  const std::vector<std::uint32_t> chosen = bare ? placesApart(holes, firstSpacing * plan_.radiusWorld)
-                                                 : placesThatCover(holes, countedRadius * plan_.radiusWorld);
+  const std::vector<std::uint32_t> chosen = patches_.empty()
+                                                ? placesApart(holes, firstSpacing * plan_.radiusWorld)
+                                                : placesThatCover(holes, countedRadius * plan_.radiusWorld);
   std::vector<SurfacePlace> places;
   for (const std::uint32_t i : chosen) places.push_back(holes[i]);
   return places;
 }
 
-std::vector<DeformablePatch> ErosionMethod::makePatches(const PatchMaker& maker, const std::vector<SurfacePlace>& places) {
+std::vector<DeformablePatch> ErosionMethod::makePatches(const PatchMaker& maker,
+                                                        const std::vector<SurfacePlace>& places,
+                                                        float presence) {
   std::vector<DeformablePatch> made(places.size());
   parallelFor(places.size(), 1, [&](std::size_t i) {
     made[i] = maker.make(places[i], nextId_ + static_cast<std::uint32_t>(i));
-    made[i].presence = 1.0f / fadeInFrames;
+    made[i].presence = presence;
   });
   nextId_ += static_cast<std::uint32_t>(places.size());
   return made;
@@ -186,10 +192,11 @@ std::vector<DeformablePatch> ErosionMethod::makePatches(const PatchMaker& maker,
 
 void ErosionMethod::checkCount(const FluidFrame& frame, std::size_t count) const {
   if (count <= static_cast<std::size_t>(options_.max_patches)) return;
-  throw InputError(fmt::format("{}: texture.erosion.max_patches: got {} patches of {:g} texels' radius for {:.3g} m2 of surface, "
-                               "expected at most {}; set a larger texture.erosion.radius, texture.texel_size or max_patches",
-                               frame.source, count, plan_.radiusWorld / plan_.texelWorld, surfaceArea(frame.mesh),
-                               options_.max_patches));
+  throw InputError(fmt::format(
+      "{}: texture.erosion.max_patches: got {} patches of {:g} texels' radius for {:.3g} m2 of surface, "
+      "expected at most {}; set a larger texture.erosion.radius, texture.texel_size or max_patches",
+      frame.source, count, plan_.radiusWorld / plan_.texelWorld, surfaceArea(frame.mesh),
+      options_.max_patches));
 }
 
 void ErosionMethod::publish() {
@@ -207,13 +214,15 @@ void ErosionMethod::save(StateWriter& writer) const {
 void ErosionMethod::load(const StateReader& reader) {
   patches_ = loadPatches(reader);
   nextId_ = reader.value<std::uint32_t>("nextId");
-  parallelFor(patches_.size(), 16, [&](std::size_t i) { measure(plan_.radiusWorld, plan_.maxDistortion, patches_[i]); });
+  parallelFor(patches_.size(), 16,
+              [&](std::size_t i) { measure(plan_.radiusWorld, plan_.maxDistortion, patches_[i]); });
   publish();
 }
 
 }  // namespace
 
-std::unique_ptr<TextureMethod> makeErosionMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times) {
+std::unique_ptr<TextureMethod> makeErosionMethod(const TextureOptions& options, std::uint64_t seed,
+                                                 PhaseTimes* times) {
   return std::make_unique<ErosionMethod>(options, seed, times);
 }
 

@@ -9,6 +9,7 @@
 namespace ebru {
 
 /// Method `erosion`: deformable lapped textures with feature-aware patch erosion [Gagnon et al. 2021].
-std::unique_ptr<TextureMethod> makeErosionMethod(const TextureOptions& options, std::uint64_t seed, PhaseTimes* times);
+std::unique_ptr<TextureMethod> makeErosionMethod(const TextureOptions& options, std::uint64_t seed,
+                                                 PhaseTimes* times);
 
 }  // namespace ebru

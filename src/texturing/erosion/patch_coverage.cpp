@@ -30,17 +30,18 @@ class Viewer {
   bool look(const SurfacePlace& place) {
     bool covered = false;
     layers_.visit(place.position, place.normal, [&](const PatchLayers::Layer& layer) {
+      const PatchIdentity& patch = layers_.identity(layer.patch);
       if (showing_ == Showing::blended) {
-        if (layer.weight >= seenWeight) mark(seen_.patches[layer.patch]);
+        if (layer.weight < seenWeight || !erosion_.inImage(patch, layer.rest)) return false;
+        mark(seen_.patches[layer.patch]);
         covered |= layer.weight >= blendedWeight;
         return false;
       }
-      const PatchIdentity& patch = layers_.identity(layer.patch);
       const std::span<const KeptCell> cells = layers_.cells(layer.patch);
-      const float opacity = erosion_.keeping(patch, cells, layer.rest, layer.weight).opacity;
+      const std::size_t cell = erosion_.judgedCell(patch, cells, layer.rest);
+      const float opacity = erosion_.keeping(patch, cells, cell, layer.rest, layer.weight).opacity;
       if (opacity == 0.0f) return false;
       mark(seen_.patches[layer.patch]);
-      const std::size_t cell = erosion_.judgedPlace(patch, cells, layer.rest);
       if (cell < cells.size()) mark(seen_.cells[layers_.firstCell(layer.patch) + cell]);
       covered = opacity == 1.0f;
       return covered;
@@ -54,7 +55,9 @@ class Viewer {
   }
 
  private:
-  static void mark(unsigned char& flag) { std::atomic_ref<unsigned char>(flag).store(1, std::memory_order_relaxed); }
+  static void mark(unsigned char& flag) {
+    std::atomic_ref<unsigned char>(flag).store(1, std::memory_order_relaxed);
+  }
 
   const PatchLayers& layers_;
   const PatchErosion& erosion_;
@@ -87,7 +90,8 @@ class HoleCounter {
   void eachReached(std::size_t place, const F& f) const {
     const SurfacePlace& centre = holes_[place];
     grid_.forEachNear(centre.position, reachWorld_, [&](std::uint32_t i) {
-      if ((holes_[i].position - centre.position).squaredNorm() < reachWorld_ * reachWorld_ && holes_[i].normal.dot(centre.normal) > 0.2f)
+      if ((holes_[i].position - centre.position).squaredNorm() < reachWorld_ * reachWorld_ &&
+          holes_[i].normal.dot(centre.normal) > 0.2f)
         f(i);
     });
   }
@@ -100,7 +104,8 @@ class HoleCounter {
 
 }  // namespace
 
-Coverage coverage(std::span<const SurfacePlace> places, const PatchLayers& layers, const PatchErosion& erosion, Showing showing) {
+Coverage coverage(std::span<const SurfacePlace> places, const PatchLayers& layers,
+                  const PatchErosion& erosion, Showing showing) {
   constexpr std::size_t block = 1024;
   Viewer viewer(layers, erosion, showing);
   std::vector<std::vector<SurfacePlace>> holes((places.size() + block - 1) / block);
@@ -111,8 +116,8 @@ Coverage coverage(std::span<const SurfacePlace> places, const PatchLayers& layer
   return std::move(viewer).result(holes);
 }
 
-Coverage coverageOfSurface(const TriangleMesh& mesh, float texelWorld, const PatchLayers& layers, const PatchErosion& erosion,
-                           Showing showing) {
+Coverage coverageOfSurface(const TriangleMesh& mesh, float texelWorld, const PatchLayers& layers,
+                           const PatchErosion& erosion, Showing showing) {
   constexpr std::size_t block = 256;
   const double perArea = placesPerTexel / (static_cast<double>(texelWorld) * texelWorld);
   Viewer viewer(layers, erosion, showing);
@@ -152,7 +157,8 @@ std::vector<std::uint32_t> placesApart(std::span<const SurfacePlace> places, flo
     order.push_back(static_cast<std::uint32_t>(positions.size()));
     positions.push_back(place.position);
   }
-  std::sort(order.begin(), order.end(), [](std::uint32_t a, std::uint32_t b) { return mixBits(a) < mixBits(b); });
+  std::sort(order.begin(), order.end(),
+            [](std::uint32_t a, std::uint32_t b) { return mixBits(a) < mixBits(b); });
   return pointsApart(positions, order, apartWorld);
 }
 
@@ -160,7 +166,9 @@ std::vector<std::uint32_t> placesThatCover(std::span<const SurfacePlace> holes, 
   struct Candidate {
     int gain;
     std::uint32_t place;
-    bool operator<(const Candidate& other) const { return gain != other.gain ? gain < other.gain : place > other.place; }
+    bool operator<(const Candidate& other) const {
+      return gain != other.gain ? gain < other.gain : place > other.place;
+    }
   };
   const std::vector<std::uint32_t> apart = placesApart(holes, 0.3f * reachWorld);
   HoleCounter counter(holes, reachWorld);

@@ -12,7 +12,8 @@ namespace ebru {
 /// What a place needs of the patches over it.
 enum class Showing {
   oldest,   ///< the oldest that is not eroded there is seen, and what is below it as far as it has faded
-  blended,  ///< all are seen, by their weights; a place has texture where one of them weighs at least `blendedWeight`
+  blended,  ///< all are seen, by their weights; a place has texture where one of them weighs at least
+            ///< `blendedWeight`
 };
 constexpr float blendedWeight = 0.5f;
 
@@ -24,11 +25,12 @@ struct Coverage {
 };
 
 /// Deterministic.
-Coverage coverage(std::span<const SurfacePlace> places, const PatchLayers& layers, const PatchErosion& erosion, Showing showing);
+Coverage coverage(std::span<const SurfacePlace> places, const PatchLayers& layers,
+                  const PatchErosion& erosion, Showing showing);
 
 /// The same for places all over a surface, one to a square texel; they depend on the mesh alone.
-Coverage coverageOfSurface(const TriangleMesh& mesh, float texelWorld, const PatchLayers& layers, const PatchErosion& erosion,
-                           Showing showing);
+Coverage coverageOfSurface(const TriangleMesh& mesh, float texelWorld, const PatchLayers& layers,
+                           const PatchErosion& erosion, Showing showing);
 
 /// Drops patches that are not seen, and notes with the others which of their cells are.
 /// @param patches  those that `layers` was made from
@@ -37,8 +39,8 @@ void keepSeen(const Coverage& coverage, const PatchLayers& layers, std::vector<D
 /// A Poisson-disk set of places, taken in random order. @return indices
 std::vector<std::uint32_t> placesApart(std::span<const SurfacePlace> places, float apartWorld);
 
-/// Places for new patches, those first that have most holes within `reachWorld`, each hole counted once; until none is left.
-/// Greedy set cover, lazily evaluated. Deterministic. @return indices into `holes`
+/// Places for new patches, those first that have most holes within `reachWorld`, each hole counted once;
+/// until none is left. Greedy set cover, lazily evaluated. Deterministic. @return indices into `holes`
 std::vector<std::uint32_t> placesThatCover(std::span<const SurfacePlace> holes, float reachWorld);
 
 }  // namespace ebru

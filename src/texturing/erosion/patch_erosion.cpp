@@ -20,13 +20,14 @@ void PatchErosion::judge(DeformablePatch& patch) const {
   };
   std::vector<Part> parts;
   parts.reserve(2 * patch.rest.size());
-  for (std::size_t v = 0; v < patch.rest.size(); ++v)
-    parts.push_back({cells_->at(patch.tile, placeOf(patch, patch.rest[v])), patch.quality[v], patch.rim[v] != 0});
+  const auto add = [&](const Vec2f& rest, float quality, bool cut) {
+    if (inImage(patch, rest)) parts.push_back({cells_->at(patch.tile, placeOf(patch, rest)), quality, cut});
+  };
+  for (std::size_t v = 0; v < patch.rest.size(); ++v) add(patch.rest[v], patch.quality[v], patch.rim[v] != 0);
   for (const Vec3i& t : patch.triangles)
     for (int c = 0; c < 3; ++c) {
       const auto a = static_cast<std::size_t>(t[c]), b = static_cast<std::size_t>(t[(c + 1) % 3]);
-      if (!patch.rim[a] || !patch.rim[b]) continue;
-      parts.push_back({cells_->at(patch.tile, placeOf(patch, 0.5f * (patch.rest[a] + patch.rest[b]))), 0.0f, true});
+      if (patch.rim[a] && patch.rim[b]) add(0.5f * (patch.rest[a] + patch.rest[b]), 0.0f, true);
     }
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.cell < b.cell; });
   for (std::size_t i = 0; i < parts.size();) {
@@ -49,7 +50,8 @@ void PatchErosion::judge(DeformablePatch& patch) const {
 }
 
 bool PatchErosion::divisible(const PatchIdentity& patch, std::uint32_t cell) const {
-  return cells_->reach(cell) * texelWorld_ > 0.5f * radiusWorld_ || cell == cells_->at(patch.tile, patch.centreSt);
+  return cells_->reach(cell) * texelWorld_ > 0.5f * radiusWorld_ ||
+         cell == cells_->at(patch.tile, patch.centreSt);
 }
 
 float PatchErosion::largestTerm(const PatchIdentity& patch) const {
@@ -61,7 +63,8 @@ float PatchErosion::largestTerm(const PatchIdentity& patch) const {
       const float nearness = nearnessOf(place * texelWorld_);
       if (!(nearness > 0.0f) || nearness + 1.0f < largest) continue;
       const Vec2f st = patch.centreSt + place;
-      largest = std::max(largest, cells_ ? cellTerm(patch, cells_->at(patch.tile, st)) : features_.at(patch.tile, st) + nearness);
+      largest = std::max(largest, cells_ ? cellTerm(patch, cells_->at(patch.tile, st))
+                                         : features_.at(patch.tile, st) + nearness);
     }
   return std::sqrt(std::max(largest, 1.0f));
 }

@@ -12,18 +12,20 @@ namespace ebru {
 /// Which places of a patch are eroded [Gagnon 2021, sec. 5.2]: those where
 ///     sqrt(F + D) / max sqrt(F + D) - epsilon < 1 - w,
 /// F the feature map, D the place's nearness to the centre, w the weight of eq. 3.
-/// With cells, whole features are: F is a feature's importance, D is taken at its middle and w is the mean quality on it. One that
-/// the rim of the patch cuts is eroded, but for large ones, of which a patch does not hold many, and the one in the middle: their
-/// places are judged one by one, as are those of cells smaller than the triangles. A feature that was hidden in the frame before comes out only while it is hardly distorted: else it
-/// would go again soon.
-/// Texture fades over the last part of its margin, so that what takes its place does not jump at the eye. The fade follows the
-/// distortion: where the fluid stops it stops. Refers to the maps. Const members are safe to call concurrently.
+/// With cells, whole features are: F is a feature's importance, D is taken at its middle and w is the mean
+/// quality on it. One that the rim of the patch cuts is eroded, but for large ones, of which a patch does not
+/// hold many, and the one in the middle: their places are judged one by one, as are those of cells smaller
+/// than the triangles. A feature that was hidden in the frame before comes out only while it is hardly
+/// distorted: else it would go again soon. What lies beyond the exemplar's image is eroded. Texture fades
+/// over the last part of its margin, so that what takes its place does not jump at the eye. The fade follows
+/// the distortion: where the fluid stops it stops. Refers to the maps. Const members are safe to call
+/// concurrently.
 class PatchErosion {
  public:
   /// @param cells  null: places are eroded one by one, as in the paper
   /// @param softness  width of the margin over which texture fades before it is eroded; 0 in the paper
-  PatchErosion(const FeatureMap& features, const FeatureCells* cells, float radiusWorld, float texelWorld, float epsilon,
-               float softness)
+  PatchErosion(const FeatureMap& features, const FeatureCells* cells, float radiusWorld, float texelWorld,
+               float epsilon, float softness)
       : features_(features),
         cells_(cells),
         radiusWorld_(radiusWorld),
@@ -31,32 +33,46 @@ class PatchErosion {
         epsilon_(epsilon),
         softness_(softness) {}
 
-  /// How a place is kept.
-  /// @param judged  cells of the patch, if it has them
-  /// @param rest  as in DeformablePatch
-  Keeping keeping(const PatchIdentity& patch, std::span<const KeptCell> judged, const Vec2f& rest, float weight) const {
-    const std::size_t cell = judgedPlace(patch, judged, rest);
+  /// Whether the exemplar has something for a place. @param rest  as in DeformablePatch
+  bool inImage(const PatchIdentity& patch, const Vec2f& rest) const {
+    return features_.holds(patch.tile, placeOf(patch, rest));
+  }
+
+  /// Which of the judged cells of a patch a place lies in; their number if in none.
+  std::size_t judgedCell(const PatchIdentity& patch, std::span<const KeptCell> judged,
+                         const Vec2f& rest) const {
+    if (judged.empty()) return 0;
+    const std::uint32_t cell = cells_->at(patch.tile, placeOf(patch, rest));
+    const auto found =
+        std::lower_bound(judged.begin(), judged.end(), cell,
+                         [](const KeptCell& c, std::uint32_t wanted) { return c.cell < wanted; });
+    return found != judged.end() && found->cell == cell ? static_cast<std::size_t>(found - judged.begin())
+                                                        : judged.size();
+  }
+
+  /// How a place is kept. @param cell  of `judgedCell`
+  Keeping keeping(const PatchIdentity& patch, std::span<const KeptCell> judged, std::size_t cell,
+                  const Vec2f& rest, float weight) const {
+    if (!inImage(patch, rest)) return {outside, 0.0f};
     if (cell < judged.size() && !std::isnan(judged[cell].margin)) return judged[cell];
-    const float nearness = nearnessOf(rest), least = std::sqrt(nearness) / patch.largestTerm - epsilon_ - (1.0f - weight);
+    const float nearness = nearnessOf(rest),
+                least = std::sqrt(nearness) / patch.largestTerm - epsilon_ - (1.0f - weight);
     // Most places are kept whatever the feature map says.
     if (least >= softness_) return {least, 1.0f};
     return keeping(features_.at(patch.tile, placeOf(patch, rest)) + nearness, patch, weight);
   }
-
-  /// Which of the judged cells a place lies in; their number if in none.
-  std::size_t judgedPlace(const PatchIdentity& patch, std::span<const KeptCell> judged, const Vec2f& rest) const {
-    if (judged.empty()) return 0;
-    const std::uint32_t cell = cells_->at(patch.tile, placeOf(patch, rest));
-    const auto found =
-        std::lower_bound(judged.begin(), judged.end(), cell, [](const KeptCell& c, std::uint32_t wanted) { return c.cell < wanted; });
-    return found != judged.end() && found->cell == cell ? static_cast<std::size_t>(found - judged.begin()) : judged.size();
+  Keeping keeping(const PatchIdentity& patch, std::span<const KeptCell> judged, const Vec2f& rest,
+                  float weight) const {
+    return keeping(patch, judged, judgedCell(patch, judged, rest), rest, weight);
   }
 
   /// Fills `cells` of a measured patch.
   void judge(DeformablePatch& patch) const;
 
   /// Where a patch's centre best lies in the exemplar, near `st`: in the middle of a feature.
-  Vec2f centreNear(int tile, const Vec2f& st) const { return cells_ ? cells_->centre(cells_->at(tile, st)) : st; }
+  Vec2f centreNear(int tile, const Vec2f& st) const {
+    return cells_ ? cells_->centre(cells_->at(tile, st)) : st;
+  }
 
   /// The cells that a new patch is to show: that of its centre, however hard it is to flatten there.
   std::vector<std::uint32_t> cellsToShow(const PatchIdentity& patch) const {
@@ -68,11 +84,16 @@ class PatchErosion {
   float largestTerm(const PatchIdentity& patch) const;
 
  private:
+  static constexpr float outside = -2.0f;  ///< the least margin of all
+
   float nearnessOf(const Vec2f& rest) const { return std::max(0.0f, 1.0f - rest.norm() / radiusWorld_); }
-  Vec2f placeOf(const PatchIdentity& patch, const Vec2f& rest) const { return patch.centreSt + rest / texelWorld_; }
+  Vec2f placeOf(const PatchIdentity& patch, const Vec2f& rest) const {
+    return patch.centreSt + rest / texelWorld_;
+  }
   /// @param squaredTerm  F + D
   Keeping keeping(float squaredTerm, const PatchIdentity& patch, float weight) const {
-    const float fresh = std::sqrt(squaredTerm) / patch.largestTerm - epsilon_, margin = fresh - (1.0f - weight);
+    const float fresh = std::sqrt(squaredTerm) / patch.largestTerm - epsilon_,
+                margin = fresh - (1.0f - weight);
     if (margin < 0.0f) return {margin, 0.0f};
     // What is hardly kept even when it is fresh has less to fade over.
     const float softness = std::min(softness_, 0.5f * fresh);

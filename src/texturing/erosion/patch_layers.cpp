@@ -13,15 +13,18 @@ constexpr float planeReach = 0.35f;  ///< of a triangle, in its longest edge
 
 /// A triangle without any weight is eroded whatever lies on it, unless features are judged as a whole.
 bool shows(const DeformablePatch& patch, const Vec3i& t) {
-  return !patch.cells.empty() || std::max({patch.weight[static_cast<std::size_t>(t[0])], patch.weight[static_cast<std::size_t>(t[1])],
+  return !patch.cells.empty() ||
+         std::max({patch.weight[static_cast<std::size_t>(t[0])], patch.weight[static_cast<std::size_t>(t[1])],
                    patch.weight[static_cast<std::size_t>(t[2])]}) > 0.0f;
 }
 
 /// Calls f(cell) for the cells that a triangle's box reaches and its plane passes.
 template <class F>
-void eachCell(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& normal, float reach, float inverseCell, const F& f) {
+void eachCell(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& normal, float reach,
+              float inverseCell, const F& f) {
   const Vec3f margin = Vec3f::Constant(0.02f / inverseCell) + reach * normal.cwiseAbs();
-  const Vec3f lower = (a.cwiseMin(b).cwiseMin(c) - margin) * inverseCell, upper = (a.cwiseMax(b).cwiseMax(c) + margin) * inverseCell;
+  const Vec3f lower = (a.cwiseMin(b).cwiseMin(c) - margin) * inverseCell,
+              upper = (a.cwiseMax(b).cwiseMax(c) + margin) * inverseCell;
   const Vec3i first = lower.array().floor().cast<int>(), last = upper.array().floor().cast<int>();
   const float halfCell = 0.5f * normal.cwiseAbs().sum(), most = halfCell + reach * inverseCell;
   Vec3i cell;
@@ -38,8 +41,9 @@ void eachCell(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& norma
 PatchLayers::PatchLayers(std::span<const DeformablePatch> patches) {
   std::vector<std::size_t> first(patches.size() + 1, 0);
   parallelFor(patches.size(), 16, [&](std::size_t i) {
-    first[i + 1] = static_cast<std::size_t>(std::count_if(patches[i].triangles.begin(), patches[i].triangles.end(),
-                                                          [&](const Vec3i& t) { return shows(patches[i], t); }));
+    first[i + 1] =
+        static_cast<std::size_t>(std::count_if(patches[i].triangles.begin(), patches[i].triangles.end(),
+                                               [&](const Vec3i& t) { return shows(patches[i], t); }));
   });
   for (std::size_t i = 0; i < patches.size(); ++i) {
     first[i + 1] += first[i];
@@ -59,7 +63,8 @@ void PatchLayers::addTriangles(const DeformablePatch& patch, std::uint32_t index
   for (std::size_t k = 0; k < patch.triangles.size(); ++k) {
     const Vec3i& t = patch.triangles[k];
     if (!shows(patch, t)) continue;
-    const auto i = static_cast<std::size_t>(t[0]), j = static_cast<std::size_t>(t[1]), l = static_cast<std::size_t>(t[2]);
+    const auto i = static_cast<std::size_t>(t[0]), j = static_cast<std::size_t>(t[1]),
+               l = static_cast<std::size_t>(t[2]);
     const Vec3f b = patch.position[j] - patch.position[i], c = patch.position[l] - patch.position[i];
     const Vec3f n = b.cross(c);
     const float square = n.squaredNorm();
@@ -70,7 +75,8 @@ void PatchLayers::addTriangles(const DeformablePatch& patch, std::uint32_t index
       triangle.dualB = c.cross(n) / square;
       triangle.dualC = n.cross(b) / square;
       triangle.normal = n / std::sqrt(square);
-      triangle.reachWorld = planeReach * std::sqrt(std::max({b.squaredNorm(), c.squaredNorm(), (c - b).squaredNorm()}));
+      triangle.reachWorld =
+          planeReach * std::sqrt(std::max({b.squaredNorm(), c.squaredNorm(), (c - b).squaredNorm()}));
     } else {
       triangle.dualB = triangle.dualC = triangle.normal = Vec3f::Zero();
       triangle.reachWorld = -1.0f;
@@ -90,7 +96,8 @@ void PatchLayers::addTriangles(const DeformablePatch& patch, std::uint32_t index
 
 void PatchLayers::fillGrid() {
   const std::size_t count = triangles_.size();
-  const double edges = parallelSum(count, [&](std::size_t i) { return std::max(0.0f, triangles_[i].reachWorld) / planeReach; });
+  const double edges = parallelSum(
+      count, [&](std::size_t i) { return std::max(0.0f, triangles_[i].reachWorld) / planeReach; });
   const float cell = count > 0 ? static_cast<float>(edges / static_cast<double>(count)) : 1.0f;
   inverseCell_ = cell > 0.0f ? 1.0f / cell : 1.0f;
   const std::size_t buckets = std::bit_ceil(std::max<std::size_t>(2, count));
@@ -115,7 +122,8 @@ void PatchLayers::fillGrid() {
   std::vector<std::uint32_t> next(firstOfBucket_.begin(), firstOfBucket_.end() - 1);
   parallelFor(count, 2048, [&](std::size_t i) {
     eachBucket(i, [&](std::uint32_t bucket) {
-      entries_[std::atomic_ref<std::uint32_t>(next[bucket]).fetch_add(1, std::memory_order_relaxed)] = static_cast<std::uint32_t>(i);
+      entries_[std::atomic_ref<std::uint32_t>(next[bucket]).fetch_add(1, std::memory_order_relaxed)] =
+          static_cast<std::uint32_t>(i);
     });
   });
   // Threads came in any order; triangles are in the order of their patches.
@@ -139,7 +147,8 @@ PatchLayers::Found PatchLayers::nearest(const Vec3f& pWorld, const Vec3f& normal
       found.b = t.dualB.dot(d);
       found.c = t.dualC.dot(d);
       found.inside = std::min(std::min(found.b, found.c), 1.0f - found.b - found.c);
-      const float off = std::abs(t.normal.dot(d)) / t.reachWorld, facing = std::max(0.0f, 0.5f - t.normal.dot(normal));
+      const float off = std::abs(t.normal.dot(d)) / t.reachWorld,
+                  facing = std::max(0.0f, 0.5f - t.normal.dot(normal));
       const float distance = std::max(0.0f, -found.inside) + off + 4.0f * facing;
       if (distance < smallest || (distance == smallest && found.triangle < best.triangle)) {
         smallest = distance;

@@ -9,8 +9,8 @@
 
 namespace ebru {
 
-/// The patches over a place of the surface: a hashed grid over their triangles. Copies what it needs. Const members are safe to
-/// call concurrently.
+/// The patches over a place of the surface: a hashed grid over their triangles. Copies what it needs. Const
+/// members are safe to call concurrently.
 class PatchLayers {
  public:
   /// @param patches  oldest first, measured
@@ -21,7 +21,7 @@ class PatchLayers {
     Vec2f rest;           ///< as in DeformablePatch
     float weight;         ///< w of eq. 3, interpolated
     float distortion;
-    float restPerWorld;   ///< mean scale of d(rest)/d(position)
+    float restPerWorld;  ///< mean scale of d(rest)/d(position)
   };
 
   /// Calls visit(layer) for the patches over a point of the surface, oldest first, until it returns true.
@@ -47,8 +47,8 @@ class PatchLayers {
     return current != nobody && visit(layer(best));
   }
 
-  /// Calls visit(layer) for triangles around a point that no patch lies over exactly, nearest first: rims of sheets and drops
-  /// that turn faster than triangles follow. @return whether it did
+  /// Calls visit(layer) for triangles around a point that no patch lies over exactly, nearest first: rims of
+  /// sheets and drops that turn faster than triangles follow. @return whether it did
   template <class Visit>
   bool visitAround(const Vec3f& pWorld, const Vec3f& normal, Visit&& visit) const {
     const Found found = nearest(pWorld, normal);
@@ -65,7 +65,8 @@ class PatchLayers {
   }
 
  private:
-  static constexpr float slack = 0.05f;  ///< share of a triangle by which it reaches over its edges, against cracks
+  static constexpr float slack =
+      0.05f;  ///< share of a triangle by which it reaches over its edges, against cracks
 
   /// What decides whether a point lies on a triangle: barycentrics are dual . (p - origin).
   struct Triangle {
@@ -117,7 +118,8 @@ class PatchLayers {
     const auto x = static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.x()));
     const auto y = static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.y()));
     const auto z = static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.z()));
-    const std::uint64_t key = x * 0x9e3779b97f4a7c15ull ^ y * 0xc2b2ae3d27d4eb4full ^ z * 0x165667b19e3779f9ull;
+    const std::uint64_t key =
+        x * 0x9e3779b97f4a7c15ull ^ y * 0xc2b2ae3d27d4eb4full ^ z * 0x165667b19e3779f9ull;
     return static_cast<std::uint32_t>((key ^ key >> 29) * 0x94d049bb133111ebull >> shift_);
   }
 

@@ -26,14 +26,16 @@ struct PatchPlan {
   std::uint64_t seed;
 };
 
-/// Copies patches from the surface of one frame [Gagnon 2021, sec. 4]. Refers to its arguments. `make` may be called concurrently.
+/// Copies patches from the surface of one frame [Gagnon 2021, sec. 4]. Refers to its arguments. `make` may be
+/// called concurrently.
 class PatchMaker {
  public:
-  PatchMaker(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim, const Exemplar& exemplar, const PatchErosion& erosion,
-             const PatchPlan& plan);
+  /// @param mesh  the frame's, or finer; @param rim  where it ends
+  PatchMaker(const FluidFrame& frame, const TriangleMesh& mesh, const SurfaceRim& rim,
+             const Exemplar& exemplar, const PatchErosion& erosion, const PatchPlan& plan);
 
-  /// A patch around `centre`, a place of the mesh: flattened by a least squares conformal map, the centre at 0, showing a
-  /// random place of the exemplar that has the patch inside where that is possible. Measured.
+  /// A patch around `centre`, a place of the mesh: flattened by a least squares conformal map, the centre at
+  /// 0, showing a random place of the exemplar that has the patch inside where that is possible. Measured.
   DeformablePatch make(const SurfacePlace& centre, std::uint32_t id) const;
 
  private:

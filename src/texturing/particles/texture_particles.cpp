@@ -7,8 +7,8 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "surface/mesh_measures.h"
 #include "surface/orientation_field.h"
-#include "surface/poisson_sampling.h"
 
 namespace ebru {
 namespace {
