@@ -8,11 +8,11 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "render/aovs.h"
-#include "render/camera.h"
-#include "render/integrator.h"
-#include "render/motion.h"
-#include "render/shapes.h"
+#include "render/film/aovs.h"
+#include "render/camera/camera.h"
+#include "render/integrators/path_integrator.h"
+#include "render/camera/motion_vectors.h"
+#include "render/geometry/shapes.h"
 
 namespace ebru {
 namespace {
@@ -31,7 +31,7 @@ struct Shading {
   const FluidFrame& fluid;
   const Scene& scene;
   const Materials& materials;
-  const Integrator& integrator;
+  const PathIntegrator& integrator;
   const MotionVectors& motion;
   const PixelFilter& filter;
   std::uint64_t seed;
@@ -70,7 +70,7 @@ float shadeBeauty(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer
 void shadeFluidData(const Shading& s, const SurfaceHit& hit, const TextureSample& texture, std::size_t pixel,
                     FrameBuffer& buffer) {
   Vec3f velocity = Vec3f::Zero();
-  if (s.fluid.velocity) s.fluid.velocity->sample(hit.position, velocity);
+  if (s.fluid.velocity) s.fluid.velocity->sample(hit.onTexture.position, velocity);
   buffer.set(Aov::velocityX, pixel, velocity);
   buffer.set(Aov::forwardU, pixel, s.motion.forward(hit.position));
   buffer.set(Aov::backwardU, pixel, s.motion.backward(hit.position));
@@ -144,20 +144,23 @@ Renderer::~Renderer() = default;
 ChannelImage Renderer::render(const RenderInput& input) const {
   if (!input.current) throw BugError("Renderer::render: no current frame");
   const FluidFrame& fluid = *input.current;
+  FluidGeometry geometry;
+  geometry.mesh = &fluid.mesh;
   std::unique_ptr<Scene> scene;
   {
     const PhaseTimer timer(impl_->times, "render: hierarchy");
-    scene = std::make_unique<Scene>(fluid.mesh, impl_->obstacles, impl_->options.ground, fluid.source);
+    scene = std::make_unique<Scene>(geometry, impl_->obstacles, impl_->options.ground, fluid.source);
   }
   const PhaseTimer timer(impl_->times, "render: trace");
   const Materials materials(impl_->options, input.texture);
-  const auto integrator =
-      makeDirectLightIntegrator({*scene, materials, impl_->lights, impl_->options.render.background});
+  const PathIntegrator integrator({*scene, materials, impl_->lights},
+                                  {impl_->options.render.max_bounces,
+                                   static_cast<float>(impl_->options.render.clamp), impl_->options.render.background});
   const MotionVectors motion(impl_->camera, input.previous, fluid, input.next);
   FrameBuffer buffer(impl_->camera.width(), impl_->camera.height());
   const RenderOptions& options = impl_->options.render;
   const auto noiseFrame = options.animate_seed ? static_cast<std::uint64_t>(fluid.frame) : 0;
-  shadeTiles({impl_->camera, fluid, *scene, materials, *integrator, motion, impl_->filter, impl_->seed, noiseFrame,
+  shadeTiles({impl_->camera, fluid, *scene, materials, integrator, motion, impl_->filter, impl_->seed, noiseFrame,
               options.spp},
              buffer);
   ChannelImage image = buffer.take();

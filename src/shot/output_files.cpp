@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "io/exr_file.h"
-#include "render/aovs.h"
+#include "render/film/aovs.h"
 #include "shot/version.h"
 
 namespace ebru {

@@ -59,6 +59,8 @@ const std::vector<ShotTable>& shotTables() {
                             [](Shot& s) -> auto& { return s.scene.camera; }),
       single<RenderOptions>("render", "How the picture is taken.", pictures,
                             [](Shot& s) -> auto& { return s.scene.render; }),
+      single<MaterialOptions>("material", "What the fluid is made of.", pictures,
+                              [](Shot& s) -> auto& { return s.scene.material; }),
       array<LightOptions>("light", "One light each.", [](Shot& s) -> auto& { return s.scene.lights; }),
       single<GroundOptions>("ground", "A plane below the fluid.", pictures,
                             [](Shot& s) -> auto& { return s.scene.ground; }),

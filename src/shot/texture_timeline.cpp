@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "render/camera_view.h"
+#include "render/camera/camera_view.h"
 #include "shot/interrupt.h"
 
 namespace ebru {

@@ -25,7 +25,7 @@ OptionFields fields(TextureOptions& o) {
        .required = true,
        .path = true},
       map("height", o.height, "grey height map of the exemplar's size, 0 low to 1 high; one per exemplar, as the maps below"),
-      map("roughness", o.roughness, "grey map of what stands in for render.roughness, 0 smooth to 1 rough"),
+      map("roughness", o.roughness, "grey map of what stands in for material.roughness, 0 smooth to 1 rough"),
       map("alpha", o.alpha, "grey map of opacity, 0 to 1; without one the alpha channel of the exemplar itself"),
       map("emission", o.emission, "map of the light given off, sRGB if 8 or 16 bit, scene-linear radiance if float"),
       weight("colour", o.weight_colour),

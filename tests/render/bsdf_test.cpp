@@ -1,4 +1,4 @@
-#include "render/bsdf.h"
+#include "render/materials/bsdf.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ Vec3d reflectance(const Bsdf& bsdf) {
 }
 
 TEST(Bsdf, LambertReflectsItsAlbedo) {
-  const Bsdf bsdf({Vec3f(0.2f, 0.5f, 0.8f), 0.0f, 0.3f}, Vec3f::UnitZ(), viewFrom(50.0));
+  const Bsdf bsdf({MaterialType::diffuse, Vec3f(0.2f, 0.5f, 0.8f)}, Vec3f::UnitZ(), viewFrom(50.0), false);
   EXPECT_NEAR((reflectance(bsdf) - Vec3d(0.2, 0.5, 0.8)).norm(), 0.0, 2e-3);
 }
 
@@ -32,14 +32,14 @@ TEST(Bsdf, LambertReflectsItsAlbedo) {
 TEST(Bsdf, SamplingAgreesWithEvaluation) {
   for (const double angle : {0.0, 40.0, 75.0})
     for (const float roughness : {0.3f, 0.7f}) {
-      const Bsdf bsdf({Vec3f(0.3f, 0.3f, 0.3f), 0.08f, roughness}, Vec3f::UnitZ(), viewFrom(angle));
+      const Bsdf bsdf({MaterialType::coated, Vec3f(0.3f, 0.3f, 0.3f), roughness}, Vec3f::UnitZ(), viewFrom(angle), false);
       PixelSampler sampler(2, 0, 0);
       double sum = 0.0, density = 0.0;
       constexpr std::uint32_t n = 1 << 16;
       for (std::uint32_t i = 0; i < n; ++i) {
         sampler.start(i);
         const Vec2f u = sampler.next();
-        const Vec3f towards = bsdf.sample(u, sampler.next().x());
+        const Vec3f towards = bsdf.sample(sampler.next().x(), u).towards;
         EXPECT_NEAR(towards.norm(), 1.0f, 1e-4f);
         const float pdf = bsdf.pdf(towards);
         if (pdf > 0.0f) sum += bsdf.evaluate(towards).x() / pdf;
@@ -54,7 +54,7 @@ TEST(Bsdf, SamplingAgreesWithEvaluation) {
 TEST(Bsdf, WhiteWithCoatReflectsNoMoreThanItGets) {
   for (const double angle : {0.0, 30.0, 60.0, 80.0})
     for (const float roughness : {0.2f, 0.5f, 1.0f}) {
-      const Bsdf bsdf({Vec3f::Ones(), 0.08f, roughness}, Vec3f::UnitZ(), viewFrom(angle));
+      const Bsdf bsdf({MaterialType::coated, Vec3f::Ones(), roughness}, Vec3f::UnitZ(), viewFrom(angle), false);
       const double total = reflectance(bsdf).x();
       EXPECT_LE(total, 1.01) << angle << " " << roughness;
       EXPECT_GE(total, 0.5) << angle << " " << roughness;
@@ -62,7 +62,7 @@ TEST(Bsdf, WhiteWithCoatReflectsNoMoreThanItGets) {
 }
 
 TEST(Bsdf, NothingFromBelow) {
-  const Bsdf bsdf({Vec3f::Ones(), 0.04f, 0.3f}, Vec3f::UnitZ(), viewFrom(20.0));
+  const Bsdf bsdf({MaterialType::coated, Vec3f::Ones(), 0.3f}, Vec3f::UnitZ(), viewFrom(20.0), false);
   EXPECT_EQ(bsdf.evaluate(Vec3f(0.6f, 0.0f, -0.8f)), Vec3f(Vec3f::Zero()));
   EXPECT_EQ(bsdf.pdf(Vec3f(0.6f, 0.0f, -0.8f)), 0.0f);
 }

@@ -1,4 +1,4 @@
-#include "render/camera_view.h"
+#include "render/camera/camera_view.h"
 
 #include <gtest/gtest.h>
 

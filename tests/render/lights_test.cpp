@@ -1,4 +1,6 @@
-#include "render/lights.h"
+#include "render/lights/environment.h"
+#include "render/lights/lights.h"
+#include "render/lights/sun_light.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -46,32 +48,38 @@ Vec3f brightDirection(double rotationDeg) {
       .cast<float>();
 }
 
+LightSeen seenFrom(const Light& light, const Vec3f& towards) {
+  LightSeen seen;
+  EXPECT_TRUE(light.seenAlong({.direction = towards}, seen));
+  return seen;
+}
+
 TEST_F(EnvironmentImage, MiddleColumnIsPlusYAndRotationIsCounterClockwise) {
-  EXPECT_EQ(Environment(options_).from(brightDirection(0.0)).radiance.x(), 100.0f);
-  EXPECT_EQ(Environment(options_).from(brightDirection(40.0)).radiance.x(), 0.25f);
+  EXPECT_EQ(seenFrom(Environment(options_), brightDirection(0.0)).radiance.x(), 100.0f);
+  EXPECT_EQ(seenFrom(Environment(options_), brightDirection(40.0)).radiance.x(), 0.25f);
   options_.rotation_deg = 40.0;
   // Counter-clockwise from above takes +y towards -x: to a smaller azimuth as measured here.
-  EXPECT_EQ(Environment(options_).from(brightDirection(40.0)).radiance.x(), 100.0f);
+  EXPECT_EQ(seenFrom(Environment(options_), brightDirection(40.0)).radiance.x(), 100.0f);
 }
 
 TEST_F(EnvironmentImage, SamplesAgreeWithLookUpAndDensity) {
   const Environment environment(options_);
-  ASSERT_TRUE(environment.importanceSampled());
+  ASSERT_TRUE(environment.isSampled());
   PixelSampler sampler(1, 0, 0);
   double solidAngle = 0.0, red = 0.0;
   constexpr std::uint32_t n = 1 << 14;
   int bright = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
     sampler.start(i);
-    const auto sample = environment.sample(sampler.next());
-    ASSERT_GT(sample.light.pdf, 0.0f);
+    const auto sample = environment.sample(Vec3f::Zero(), sampler.next());
+    ASSERT_GT(sample.pdf, 0.0f);
     // A sample on the border of a pixel may be looked up in its neighbour.
-    if (sample.light.radiance == environment.from(sample.towards).radiance) {
-      EXPECT_FLOAT_EQ(sample.light.pdf, environment.from(sample.towards).pdf);
+    if (sample.radiance == seenFrom(environment, sample.towards).radiance) {
+      EXPECT_FLOAT_EQ(sample.pdf, seenFrom(environment, sample.towards).pdf);
     }
-    solidAngle += 1.0 / sample.light.pdf;
-    red += sample.light.radiance.x() / sample.light.pdf;
-    bright += sample.light.radiance.x() > 1.0f;
+    solidAngle += 1.0 / sample.pdf;
+    red += sample.radiance.x() / sample.pdf;
+    bright += sample.radiance.x() > 1.0f;
   }
   EXPECT_NEAR(solidAngle / n, 4.0 * M_PI, 0.05);
   const double pixel = 2.0 * M_PI / 16.0 * (std::cos(3.0 * M_PI / 8.0) - std::cos(4.0 * M_PI / 8.0));
@@ -88,8 +96,8 @@ TEST_F(EnvironmentImage, MissingImageIsAnInputError) {
 
 TEST(Lights, DefaultIsASunAndASky) {
   const Lights lights({});
-  EXPECT_EQ(lights.suns.size(), 1u);
-  EXPECT_EQ(lights.environments.size(), 1u);
+  EXPECT_EQ(lights.all.size(), 2u);
+  EXPECT_EQ(lights.sampled.size(), 1u) << "light of one colour from everywhere is not sampled";
 }
 
 TEST(Lights, SunWithoutDirectionIsAUsageError) {
@@ -106,7 +114,8 @@ TEST(Lights, SunOfIntensityOneLightsWhiteToOne) {
     PixelSampler sampler(1, 0, 0);
     for (std::uint32_t i = 0; i < 4096; ++i) {
       sampler.start(i);
-      sum += sun.sample(sampler.next()).z() / M_PI * sun.radianceOverPdf().x();
+      const LightSample sample = sun.sample(Vec3f::Zero(), sampler.next());
+      sum += sample.towards.z() / M_PI * sample.radiance.x() / sample.pdf;
     }
     EXPECT_NEAR(sum / 4096.0, 1.0, 1e-3) << diameter;
   }

@@ -9,7 +9,7 @@
 #include "fluid/fluid_frame.h"
 #include "io/channel_image.h"
 #include "render/render_options.h"
-#include "render/shapes.h"
+#include "render/geometry/shapes.h"
 #include "texturing/texture_field.h"
 
 namespace ebru::test {
@@ -72,7 +72,9 @@ inline SceneOptions topView(int width, int height, double heightWorld) {
   options.camera.orthographic_height = heightWorld;
   options.camera.size = {width, height};
   options.render.spp = 4;
-  options.render.specular = 0.0;
+  options.render.max_bounces = 1;
+  options.material.type = "diffuse";
+  options.material.roughness = 0.0;
   return options;
 }
 

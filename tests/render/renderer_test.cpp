@@ -88,10 +88,10 @@ TEST(Renderer, EmissionIsRadiance) {
 TEST(Renderer, RoughnessOfTheTextureStandsInForTheShots) {
   SceneOptions options = topView(48, 48, 1.6);
   options.lights = {sun(0.3, 0.2, 1.0), sky(0.3)};
-  options.render.specular = 1.0;
+  options.material.type = "coated";
   const FluidFrame frame = makeFrame(makeSphere(Vec3f::Zero(), 0.7f));
   const auto red = [&](double ofShot, float ofTexture) {
-    options.render.roughness = ofShot;
+    options.material.roughness = ofShot;
     const PlainTexture texture(Vec3f(0.1f, 0.1f, 0.1f), ofTexture);
     return render(options, frame, &texture).find("R")->data;
   };
@@ -125,7 +125,7 @@ TEST(Renderer, ShadowOfABoxFallsWhereGeometrySays) {
   options.lights = {sun(-1.0, 0.0, 1.0)};
   options.render.filter_width_px = 0.0;
   options.ground.enabled = true;
-  options.ground.colour = {0.5, 0.5, 0.5};
+  options.ground.material.colour = {0.5, 0.5, 0.5};
   ObstacleOptions box;
   box.position = {0.0, 0.0, 0.25};
   box.size = {0.5, 0.5, 0.5};
@@ -213,7 +213,7 @@ TEST(Renderer, WithoutTextureOrInAHoleTheMaskIsOneAndTheCoordinateMinusOne) {
   };
   const Hole hole;
   SceneOptions options = topView(8, 8, 2.0);
-  options.render.fluid_colour = {0.25, 0.5, 0.75};
+  options.material.colour = {0.25, 0.5, 0.75};
   const FluidFrame frame = makeFrame(makeBox(Vec3f::Zero(), Vec3f::Ones()));
   for (const TextureField* texture :
        {static_cast<const TextureField*>(&hole), static_cast<const TextureField*>(nullptr)}) {

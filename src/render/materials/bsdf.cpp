@@ -1,4 +1,4 @@
-#include "render/bsdf.h"
+#include "render/materials/bsdf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,14 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 }
 
-Bsdf::Bsdf(const Material& material, const Vec3f& normal, const Vec3f& towardsViewer)
+Bsdf::Bsdf(const Material& material, const Vec3f& normal, const Vec3f& towardsViewer, bool /*inside*/)
     : material_(material),
+      coatReflectance_(material.type == MaterialType::diffuse
+                           ? 0.0f
+                           : std::pow((material.ior - 1.0f) / (material.ior + 1.0f), 2.0f)),
       frame_(normal),
       viewer_(frame_.toLocal(towardsViewer)),
-      alpha_(std::max(1e-3f, material.coatRoughness * material.coatRoughness)) {
+      alpha_(std::max(1e-3f, material.roughness * material.roughness)) {
   // An interpolated normal may point away from the viewer at a silhouette.
   viewer_.z() = std::max(viewer_.z(), 1e-2f);
   viewer_.normalize();
@@ -24,7 +27,7 @@ Bsdf::Bsdf(const Material& material, const Vec3f& normal, const Vec3f& towardsVi
 
 // Reflectance at grazing angles falls to zero together with the reflectance at normal incidence below 2 %.
 float Bsdf::fresnel(float cosine) const {
-  const float normal = material_.coatReflectance;
+  const float normal = coatReflectance_;
   const float grazing = std::min(1.0f, 50.0f * normal);
   const float c = 1.0f - std::clamp(cosine, 0.0f, 1.0f);
   return normal + (grazing - normal) * (c * c) * (c * c) * c;
@@ -68,10 +71,17 @@ Vec3f Bsdf::sampleFacet(const Vec2f& u) const {
   return Vec3f(alpha_ * n.x(), alpha_ * n.y(), std::max(1e-6f, n.z())).normalized();
 }
 
-Vec3f Bsdf::sample(const Vec2f& u, float choice) const {
-  if (choice >= coatProbability_) return frame_.toWorld(sampleCosine(u));
-  const Vec3f half = sampleFacet(u);
-  return frame_.toWorld(2.0f * viewer_.dot(half) * half - viewer_);
+BsdfSample Bsdf::sample(float choice, const Vec2f& u) const {
+  BsdfSample result;
+  if (choice >= coatProbability_) {
+    result.towards = frame_.toWorld(sampleCosine(u));
+  } else {
+    const Vec3f half = sampleFacet(u);
+    result.towards = frame_.toWorld(2.0f * viewer_.dot(half) * half - viewer_);
+  }
+  result.value = evaluate(result.towards);
+  result.pdf = pdf(result.towards);
+  return result;
 }
 
 float Bsdf::pdf(const Vec3f& towardsLight) const {

@@ -1,4 +1,4 @@
-#include "render/shapes.h"
+#include "render/geometry/shapes.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "render/aovs.h"
+#include "render/film/aovs.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "render/camera_view.h"
+#include "render/camera/camera_view.h"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ constexpr float liftVoxels = 1.0f;
 }  // namespace
 
 CameraView::CameraView(const CameraOptions& options, const FluidFrame& frame)
-    : camera_(options), fluid_({&frame.mesh}), voxelSizeWorld_(frame.voxelSizeWorld) {}
+    : camera_(options), fluid_(std::vector<RayMesh>{{&frame.mesh}}), voxelSizeWorld_(frame.voxelSizeWorld) {}
 
 float CameraView::visibility(const Vec3f& positionWorld, const Vec3f& normal) const {
   Vec2d raster;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/camera.h"
-#include "render/embree_scene.h"
+#include "render/camera/camera.h"
+#include "render/geometry/embree_scene.h"
 #include "texturing/view.h"
 
 namespace ebru {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fluid/flow.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
 
 namespace ebru {
 

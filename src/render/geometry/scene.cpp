@@ -1,4 +1,4 @@
-#include "render/scene.h"
+#include "render/geometry/scene.h"
 
 #include <fmt/format.h>
 
@@ -43,18 +43,20 @@ struct Corners {
 
 }  // namespace
 
-Scene::Scene(const TriangleMesh& fluid, const std::vector<TriangleMesh>& obstacles,
-             const GroundOptions& ground, const std::string& source)
-    : ground_(ground) {
-  checkIndices(fluid, source);
-  meshes_.push_back(&fluid);
-  for (const TriangleMesh& mesh : obstacles) meshes_.push_back(&mesh);
-  for (const TriangleMesh* mesh : meshes_)
-    for (const Vec3f& p : mesh->positions) {
+Scene::Scene(const FluidGeometry& fluid, const std::vector<TriangleMesh>& obstacles, const GroundOptions& ground,
+             const std::string& source, const HitFilter* holes)
+    : fluid_(fluid), ground_(ground) {
+  checkIndices(*fluid.mesh, source);
+  const bool moves = !fluid.atOpen.empty();
+  meshes_.push_back(
+      {fluid.mesh, moves ? &fluid.atOpen : nullptr, moves ? &fluid.atClose : nullptr, holes != nullptr});
+  for (const TriangleMesh& mesh : obstacles) meshes_.push_back({&mesh});
+  for (const RayMesh& part : meshes_)
+    for (const Vec3f& p : part.mesh->positions) {
       const float reach = p.cwiseAbs().maxCoeff();
       if (std::isfinite(reach)) extentWorld_ = std::max(extentWorld_, reach);
     }
-  embree_ = std::make_unique<EmbreeScene>(meshes_);
+  embree_ = std::make_unique<EmbreeScene>(meshes_, holes);
 }
 
 // Coordinates near p carry errors of a few units in the last place of the largest number involved (2^-24 of
@@ -77,7 +79,7 @@ bool Scene::groundDistance(const Ray& ray, float& distanceWorld) const {
 }
 
 bool Scene::intersect(const Ray& ray, SurfaceHit& hit) const {
-  EmbreeScene::Hit found;
+  MeshHit found;
   const bool onMesh = embree_->intersect(ray, found);
   float toGround = 0.0f;
   const bool onGround = groundDistance(ray, toGround);
@@ -100,22 +102,54 @@ void Scene::completeGroundHit(const Ray& ray, SurfaceHit& hit) const {
   hit.position = ray.at(hit.distanceWorld);
   hit.position.z() = static_cast<float>(ground_.height);
   hit.normal = Vec3f::UnitZ();
-  hit.facing = ray.direction.z() < 0.0f ? Vec3f(0.0f, 0.0f, 1.0f) : Vec3f(0.0f, 0.0f, -1.0f);
-  hit.shadowOrigin = hit.position + epsilon(hit.position) * hit.facing;
+  hit.inside = !(ray.direction.z() < 0.0f);
+  hit.facing = hit.inside ? Vec3f(0.0f, 0.0f, -1.0f) : Vec3f(0.0f, 0.0f, 1.0f);
+  const Vec3f off = epsilon(hit.position) * hit.facing;
+  hit.originHere = hit.position + off;
+  hit.originBeyond = hit.position - off;
 }
 
-void Scene::completeMeshHit(const Ray& ray, const EmbreeScene::Hit& found, SurfaceHit& hit) const {
-  const TriangleMesh& mesh = *meshes_[found.mesh];
+SurfacePoint Scene::texturePoint(std::uint32_t triangle, const Vec2f& barycentric) const {
+  const TriangleMesh& mesh = *fluid_.mesh;
+  const Vec3i& corner = mesh.triangles[triangle];
+  const std::vector<Vec3f>& positions = fluid_.basePositions.empty() ? mesh.positions : fluid_.basePositions;
+  const std::vector<Vec3f>& normals = fluid_.baseNormals.empty() ? mesh.normals : fluid_.baseNormals;
+  const auto at = [&](const std::vector<Vec3f>& values, int k) -> const Vec3f& {
+    return values[static_cast<std::size_t>(corner[k])];
+  };
+  const float first = 1.0f - barycentric.x() - barycentric.y();
+  const auto between = [&](const std::vector<Vec3f>& values) -> Vec3f {
+    return first * at(values, 0) + barycentric.x() * at(values, 1) + barycentric.y() * at(values, 2);
+  };
+  SurfacePoint point;
+  point.position = between(positions);
+  point.triangle = fluid_.baseTriangles.empty() ? triangle : fluid_.baseTriangles[triangle];
+  point.barycentric = barycentric;
+  point.normal = normals.size() == positions.size() ? between(normals) : Vec3f(Vec3f::Zero());
+  const float length = point.normal.norm();
+  point.normal = length > 1e-6f && std::isfinite(length)
+                     ? Vec3f(point.normal / length)
+                     : Vec3f((at(positions, 1) - at(positions, 0))
+                                 .cross(at(positions, 2) - at(positions, 0))
+                                 .stableNormalized());
+  return point;
+}
+
+void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hit) const {
+  const RayMesh& part = meshes_[found.mesh];
+  const TriangleMesh& mesh = *part.mesh;
   hit.kind = found.mesh == 0 ? SurfaceKind::fluid : SurfaceKind::obstacle;
   hit.obstacle = found.mesh == 0 ? 0 : found.mesh - 1;
-  hit.triangle = found.triangle;
-  hit.barycentric = found.barycentric;
   hit.distanceWorld = found.distanceWorld;
 
   Corners corners;
   const Vec3i& triangle = mesh.triangles[found.triangle];
-  for (int k = 0; k < 3; ++k)
-    corners.positions[static_cast<std::size_t>(k)] = mesh.positions[static_cast<std::size_t>(triangle[k])];
+  for (int k = 0; k < 3; ++k) {
+    const auto v = static_cast<std::size_t>(triangle[k]);
+    corners.positions[static_cast<std::size_t>(k)] =
+        part.atOpen ? Vec3f((1.0f - ray.time) * (*part.atOpen)[v] + ray.time * (*part.atClose)[v])
+                    : mesh.positions[v];
+  }
   corners.weights = {1.0f - found.barycentric.x() - found.barycentric.y(), found.barycentric.x(),
                      found.barycentric.y()};
   hit.position = corners.interpolate(corners.positions);
@@ -136,9 +170,13 @@ void Scene::completeMeshHit(const Ray& ray, const EmbreeScene::Hit& found, Surfa
       if (geometric.dot(hit.normal) < 0.0f) geometric = -geometric;
     }
   }
-  const float side = geometric.dot(ray.direction) <= 0.0f ? 1.0f : -1.0f;
+  hit.inside = geometric.dot(ray.direction) > 0.0f;
+  const float side = hit.inside ? -1.0f : 1.0f;
   hit.facing = side * hit.normal;
-  hit.shadowOrigin = corners.lift(hit.position, side) + (side * epsilon(hit.position)) * geometric;
+  const Vec3f off = (side * epsilon(hit.position)) * geometric;
+  hit.originHere = corners.lift(hit.position, side) + off;
+  hit.originBeyond = hit.position - off;
+  if (hit.kind == SurfaceKind::fluid) hit.onTexture = texturePoint(found.triangle, found.barycentric);
 }
 
 }  // namespace ebru

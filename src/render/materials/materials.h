@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "render/bsdf.h"
+#include "render/geometry/scene.h"
+#include "render/materials/material.h"
 #include "render/render_options.h"
-#include "render/scene.h"
 #include "texturing/texture_field.h"
 
 namespace ebru {
@@ -12,7 +12,8 @@ namespace ebru {
 /// What a hit looks like: its material and, on the fluid, its texture.
 struct Appearance {
   Material material;
-  TextureSample texture;  ///< not valid off the fluid, in a hole, and without a texture
+  Vec3f emission = Vec3f::Zero();  ///< radiance given off
+  TextureSample texture;           ///< not valid off the fluid, in a hole, and without a texture
 };
 
 /// Const members are safe to call concurrently.
@@ -26,16 +27,16 @@ class Materials {
   ///                    1 / cosine; the texture is given the root of its axes' product, stretched by at most
   ///                    4
   Appearance at(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
+  /// Whether anything may give off light.
+  bool emits() const { return texture_ != nullptr; }
 
  private:
   Appearance fluid(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
-  Vec3f groundColour(const Vec3f& position) const;
 
   const TextureField* texture_;
-  Vec3f fluidColour_;
-  float coatReflectance_, coatRoughness_;
-  GroundOptions ground_;
-  std::vector<Vec3f> obstacleColours_;
+  GroundOptions groundOptions_;
+  Material fluid_, ground_, groundChecker_;
+  std::vector<Material> obstacles_;
 };
 
 }  // namespace ebru

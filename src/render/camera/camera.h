@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/vec.h"
-#include "render/ray.h"
-#include "render/render_options.h"
+#include "render/geometry/ray.h"
+#include "render/camera/camera_options.h"
 
 namespace ebru {
 

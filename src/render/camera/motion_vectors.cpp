@@ -1,4 +1,4 @@
-#include "render/motion.h"
+#include "render/camera/motion_vectors.h"
 
 namespace ebru {
 

@@ -1,4 +1,4 @@
-#include "render/environment.h"
+#include "render/lights/environment.h"
 
 #include <fmt/format.h>
 
@@ -77,22 +77,32 @@ void Environment::buildDistribution() {
   const double total = accumulate(rows.data(), height_, marginal.data());
   if (!(total > 0.0)) return;
   marginal_ = std::move(marginal);
-  for (Arriving& pixel : pixels_)
+  for (Pixel& pixel : pixels_)
     pixel.pdf = static_cast<float>(luminance(pixel.radiance) * width_ / (2.0 * pi * total));
 }
 
-Environment::Arriving Environment::from(const Vec3f& towards) const {
-  if (pixels_.empty()) return {constant_, 0.0f};
+bool Environment::seenAlong(const Ray& ray, LightSeen& seen) const {
+  if (ray.farWorld < std::numeric_limits<float>::infinity()) return false;
+  seen.distanceWorld = std::numeric_limits<float>::infinity();
+  if (pixels_.empty()) {
+    seen.radiance = constant_;
+    seen.pdf = 0.0f;
+    return true;
+  }
+  const Vec3f& towards = ray.direction;
   constexpr float turn = static_cast<float>(2.0 * pi);
   float across = (std::atan2(towards.x(), towards.y()) + rotation_) / turn + 0.5f;
   across -= std::floor(across);
   const float down = std::acos(std::clamp(towards.z(), -1.0f, 1.0f)) / static_cast<float>(pi);
   const int x = std::min(static_cast<int>(across * static_cast<float>(width_)), width_ - 1);
   const int y = std::min(static_cast<int>(down * static_cast<float>(height_)), height_ - 1);
-  return pixels_[at(x, y)];
+  const Pixel& pixel = pixels_[at(x, y)];
+  seen.radiance = pixel.radiance;
+  seen.pdf = pixel.pdf;
+  return true;
 }
 
-Environment::Sample Environment::sample(const Vec2f& u) const {
+LightSample Environment::sample(const Vec3f& /*fromWorld*/, const Vec2f& u) const {
   float down, across;
   const int y = findCell(marginal_.data(), height_, u.y(), down);
   const int x = findCell(&conditional_[at(0, y)], width_, u.x(), across);
@@ -104,7 +114,11 @@ Environment::Sample Environment::sample(const Vec2f& u) const {
   const float azimuth =
       static_cast<float>(2.0 * pi) * ((static_cast<float>(x) + across) / static_cast<float>(width_) - 0.5f) -
       rotation_;
-  return {Vec3f(radius * std::sin(azimuth), radius * std::cos(azimuth), z), pixels_[at(x, y)]};
+  LightSample sample;
+  sample.towards = Vec3f(radius * std::sin(azimuth), radius * std::cos(azimuth), z);
+  sample.radiance = pixels_[at(x, y)].radiance;
+  sample.pdf = pixels_[at(x, y)].pdf;
+  return sample;
 }
 
 }  // namespace ebru

@@ -1,0 +1,140 @@
+#include "render/integrators/path_integrator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/materials/bsdf.h"
+
+namespace ebru {
+namespace {
+
+/// Weight of a sampling technique with density `a` against one with `b` [Veach and Guibas 1995, power heuristic].
+float powerHeuristic(float a, float b) {
+  const float ratio = b / a;
+  return 1.0f / (1.0f + ratio * ratio);
+}
+
+/// How much wider the footprint of a path grows per metre after a scattering of that density. Blurred look-ups
+/// further down the path are noise that is not made.
+float scatteredWidthPerMetre(float pdf) {
+  return 0.1f / std::sqrt(std::max(pdf, 1e-3f));
+}
+
+}  // namespace
+
+/// A point where light is scattered.
+struct PathIntegrator::Vertex {
+  const SurfaceHit& hit;
+  const Bsdf& bsdf;
+  float time;
+};
+
+/// The last scattering before a ray.
+struct PathIntegrator::Tail {
+  float pdf = 0.0f;     ///< of the ray's direction, per steradian
+  float chance = 0.0f;  ///< with which that scattering gave a ray to each sampled light
+  bool fromCamera = true;
+};
+
+RaySample PathIntegrator::trace(const CameraRay& cameraRay, PixelSampler& sampler) const {
+  Ray ray = cameraRay.ray;
+  float width = cameraRay.widthWorld, widthPerMetre = cameraRay.widthPerMetre;
+  Vec3f throughput = Vec3f::Ones();
+  Tail tail;
+  RaySample result;
+  const auto add = [&](const Vec3f& light, int bounce) {
+    Vec3f brought = throughput.cwiseProduct(light);
+    const float largest = brought.maxCoeff();
+    if (limits_.clamp > 0.0f && bounce > 1 && largest > limits_.clamp) brought *= limits_.clamp / largest;
+    result.radiance += brought;
+  };
+
+  for (int bounce = 0;; ++bounce) {
+    SurfaceHit hit;
+    const bool met = in_.scene.intersect(ray, hit);
+    if (met) ray.farWorld = hit.distanceWorld;
+    if (bounce > 0 || limits_.showBackground) add(lightsSeen(ray, tail), bounce);
+    if (!met) {
+      if (bounce == 0) result.alpha = limits_.showBackground ? 1.0f : 0.0f;
+      break;
+    }
+    result.alpha = 1.0f;
+
+    width += widthPerMetre * hit.distanceWorld;
+    const Appearance appearance = in_.materials.at(hit, ray.direction, width);
+    if (hit.inside && appearance.material.type == MaterialType::dielectric)
+      throughput.array() *= (-hit.distanceWorld * appearance.material.absorptionPerMetre.array()).exp();
+    add(appearance.emission, bounce);
+    if (bounce >= limits_.maxBounces) break;
+
+    const Bsdf bsdf(appearance.material, hit.facing, -ray.direction, hit.inside);
+    const Vertex vertex{hit, bsdf, ray.time};
+    const std::vector<const Light*>& lights = in_.lights.sampled;
+    const bool last = bounce + 1 >= limits_.maxBounces;
+    tail = {};
+    tail.fromCamera = false;
+    if (!lights.empty() && bounce == 0) {
+      tail.chance = 1.0f;
+      for (const Light* light : lights) add(directLight(vertex, *light, sampler.next(), 1.0f), 1);
+    } else if (!lights.empty()) {
+      const auto count = static_cast<float>(lights.size());
+      const auto chosen = std::min(static_cast<std::size_t>(sampler.next().x() * count), lights.size() - 1);
+      tail.chance = 1.0f / count;
+      add(directLight(vertex, *lights[chosen], sampler.next(), tail.chance), bounce + 1);
+    }
+
+    const float choice = sampler.next().x();
+    const BsdfSample scattered = bsdf.sample(choice, sampler.next());
+    if (!(scattered.pdf > 0.0f)) break;
+    throughput.array() *= scattered.value.array() / scattered.pdf;
+    const float carried = throughput.maxCoeff();
+    if ((throughput.array() == 0.0f).all()) break;
+    if (bounce >= 2 && carried < 1.0f) {
+      const float survival = std::max(0.05f, carried);
+      if (sampler.next().x() >= survival) break;
+      throughput /= survival;
+    }
+    tail.pdf = scattered.pdf;
+    widthPerMetre = std::max(widthPerMetre, scatteredWidthPerMetre(scattered.pdf));
+    Ray next;
+    next.origin = scattered.transmitted ? hit.originBeyond : hit.originHere;
+    next.direction = scattered.towards;
+    next.time = ray.time;
+    ray = next;
+    if (last && !in_.materials.emits()) {
+      // Whatever surface comes next ends the path.
+      if (!in_.scene.occluded(ray)) add(lightsSeen(ray, tail), bounce + 1);
+      break;
+    }
+  }
+  return result;
+}
+
+Vec3f PathIntegrator::lightsSeen(const Ray& ray, const Tail& tail) const {
+  Vec3f sum = Vec3f::Zero();
+  for (const auto& light : in_.lights.all) {
+    LightSeen seen;
+    if (!light->seenAlong(ray, seen)) continue;
+    const bool both = !tail.fromCamera && light->isSampled() && seen.pdf > 0.0f;
+    sum += (both ? powerHeuristic(tail.pdf, seen.pdf * tail.chance) : 1.0f) * seen.radiance;
+  }
+  return sum;
+}
+
+Vec3f PathIntegrator::directLight(const Vertex& vertex, const Light& light, const Vec2f& u, float chance) const {
+  const LightSample sample = light.sample(vertex.hit.position, u);
+  if (!(sample.pdf > 0.0f)) return Vec3f::Zero();
+  const Vec3f scattered = vertex.bsdf.evaluate(sample.towards).cwiseProduct(sample.radiance);
+  if ((scattered.array() == 0.0f).all()) return Vec3f::Zero();
+  Ray shadow;
+  shadow.origin = sample.towards.dot(vertex.hit.facing) >= 0.0f ? vertex.hit.originHere : vertex.hit.originBeyond;
+  shadow.direction = sample.towards;
+  shadow.time = vertex.time;
+  shadow.farWorld = sample.distanceWorld * (1.0f - 1e-4f);
+  if (in_.scene.occluded(shadow)) return Vec3f::Zero();
+  const float pdf = sample.pdf * chance;
+  const float weight = sample.isPoint ? 1.0f : powerHeuristic(pdf, vertex.bsdf.pdf(sample.towards));
+  return (weight / pdf) * scattered;
+}
+
+}  // namespace ebru
