@@ -20,6 +20,7 @@ struct ShotArguments {
   std::string file, method, size, chunk;
   std::string out, states;
   int spp = 0, seed = -1;
+  double noise = -1.0;
   std::vector<std::string> settings;
   bool resume = false, overwrite = false;
   RunOptions run;
@@ -30,7 +31,7 @@ struct ShotArguments {
   RunOptions runOptions(const Shot& shot) const;
 };
 
-/// Adds SHOT, --set, --method, --size, --spp and --seed.
+/// Adds SHOT, --set, --method, --size, --spp, --noise and --seed.
 void addShotArguments(CLI::App& command, ShotArguments& arguments);
 /// Adds --frames, --chunk, --out, --states, --threads, --resume and --overwrite.
 void addRunArguments(CLI::App& command, ShotArguments& arguments);

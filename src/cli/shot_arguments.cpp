@@ -35,6 +35,7 @@ Shot ShotArguments::read() const {
   if (!method.empty()) overrides.push_back("texture.method=" + method);
   if (!size.empty()) overrides.push_back(sizeSetting(size));
   if (spp > 0) overrides.push_back(fmt::format("render.spp={}", spp));
+  if (noise >= 0.0) overrides.push_back(fmt::format("render.noise={}", noise));
   if (seed >= 0) overrides.push_back(fmt::format("shot.seed={}", seed));
   Shot shot = readShot(file, overrides);
   checkMethod(shot);
@@ -59,7 +60,9 @@ void addShotArguments(CLI::App& command, ShotArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--method", arguments.method, "Texture method (`ebru methods`)")->type_name("NAME");
   command.add_option("--size", arguments.size, "Width and height of the picture in pixels")->type_name("WxH");
-  command.add_option("--spp", arguments.spp, "Samples per pixel")->check(CLI::Range(1, 65536));
+  command.add_option("--spp", arguments.spp, "Samples per pixel, with --noise at most")->check(CLI::Range(1, 65536));
+  command.add_option("--noise", arguments.noise, "Sample until this error, e.g. 0.02, or --spp is reached")
+      ->check(CLI::Range(0.0, 1.0));
   command.add_option("--seed", arguments.seed, "Seed of all random numbers")->check(CLI::NonNegativeNumber);
   for (CLI::Option* option : command.get_options())
     if (option->get_name() != "--set") option->take_last();

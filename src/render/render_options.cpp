@@ -6,8 +6,17 @@ namespace ebru {
 
 OptionFields fields(RenderOptions& o) {
   return {
-      optionField("spp", &o.spp, "", "Samples per pixel of the lit picture; data channels always take one.", 1,
+      optionField("spp", &o.spp, "",
+                  "Samples per pixel of the lit picture, with noise at most; data channels always take one.", 1,
                   65536),
+      optionField("noise", &o.noise, "",
+                  "Error at which a tile of 16 x 16 pixels is good enough: root mean square standard error of the "
+                  "root of the luminance, so 0.02 is about a fiftieth of the way from black to white on a display; 0 "
+                  "takes spp samples everywhere.",
+                  0.0, 1.0),
+      optionField("variance", &o.variance, "",
+                  "Write the channels variance.R, .G and .B too: the estimated variance of each pixel of the lit "
+                  "picture."),
       optionField("max_bounces", &o.max_bounces, "",
                   "How often light is scattered on its way at most; 1 is direct light alone.", 1, 64),
       optionField("clamp", &o.clamp, "",

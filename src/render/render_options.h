@@ -15,6 +15,8 @@ namespace ebru {
 
 struct RenderOptions {
   int spp = 16;
+  double noise = 0.0;
+  bool variance = false;
   int max_bounces = 4;
   double clamp = 0.0;
   double filter_width_px = 2.0;

@@ -9,15 +9,12 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "render/film/aovs.h"
-#include "render/camera/camera.h"
-#include "render/integrators/path_integrator.h"
-#include "render/camera/motion_vectors.h"
+#include "render/film/data_channels.h"
+#include "render/integrators/beauty_pass.h"
 #include "render/geometry/shapes.h"
 
 namespace ebru {
 namespace {
-
-constexpr int tileSize = 16;
 
 TriangleMesh makeObstacle(const ObstacleOptions& options) {
   const Vec3f centre = Vec3d(options.position[0], options.position[1], options.position[2]).cast<float>();
@@ -25,90 +22,35 @@ TriangleMesh makeObstacle(const ObstacleOptions& options) {
   return makeBox(centre, Vec3d(options.size[0], options.size[1], options.size[2]).cast<float>());
 }
 
-/// Everything one picture is computed from; lives while it is traced.
-struct Shading {
-  const Camera& camera;
-  const FluidFrame& fluid;
-  const Scene& scene;
-  const Materials& materials;
-  const PathIntegrator& integrator;
-  const MotionVectors& motion;
-  const PixelFilter& filter;
-  std::uint64_t seed;
-  std::uint64_t noiseFrame;  ///< the same in all frames unless the noise is animated
-  int spp;
-};
-
-/// The lit picture of one pixel. @return its alpha
-float shadeBeauty(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer& buffer) {
-  // With more samples each stands for less of the pixel, so its texture may be sharper.
-  const float footprintScale = std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(s.spp)));
-  PixelSampler sampler(s.seed, s.noiseFrame, pixel);
-  Vec3f radiance = Vec3f::Zero();
-  float alpha = 0.0f;
-  for (int i = 0; i < s.spp; ++i) {
-    sampler.start(static_cast<std::uint32_t>(i));
-    const Vec2d raster = Vec2d(x + 0.5, y + 0.5) + s.filter.offset(sampler.next());
-    CameraRay ray = s.camera.rayThrough(raster);
-    ray.widthWorld *= footprintScale;
-    ray.widthPerMetre *= footprintScale;
-    const RaySample sample = s.integrator.trace(ray, sampler);
-    if (!sample.radiance.allFinite())
-      throw BugError(
-          fmt::format("frame {} pixel ({}, {}) sample {}: radiance: got ({}, {}, {}), expected finite "
-                      "values; check the texture's colours there",
-                      s.fluid.frame, x, y, i, sample.radiance.x(), sample.radiance.y(), sample.radiance.z()));
-    radiance += sample.radiance;
-    alpha += sample.alpha;
-  }
-  const auto samples = static_cast<float>(s.spp);
-  buffer.set(Aov::red, pixel, Vec3f(radiance / samples));
-  buffer.set(Aov::alpha, pixel, alpha / samples);
-  return alpha;
+void writeBeauty(const PixelSamples& samples, std::size_t pixel, bool variance, FrameBuffer& buffer) {
+  buffer.set(Aov::red, pixel, samples.mean());
+  buffer.set(Aov::alpha, pixel, samples.meanAlpha());
+  buffer.set(Aov::samples, pixel, static_cast<float>(samples.count));
+  if (variance) buffer.setVariance(pixel, samples.varianceOfMean());
 }
 
-void shadeFluidData(const Shading& s, const SurfaceHit& hit, const TextureSample& texture, std::size_t pixel,
-                    FrameBuffer& buffer) {
-  Vec3f velocity = Vec3f::Zero();
-  if (s.fluid.velocity) s.fluid.velocity->sample(hit.onTexture.position, velocity);
-  buffer.set(Aov::velocityX, pixel, velocity);
-  buffer.set(Aov::forwardU, pixel, s.motion.forward(hit.position));
-  buffer.set(Aov::backwardU, pixel, s.motion.backward(hit.position));
-  buffer.set(Aov::textureMask, pixel, 1.0f);
-  buffer.set(Aov::textureS, pixel, texture.valid ? texture.st : Vec2f(-1.0f, -1.0f));
-  if (!texture.valid) return;
-  buffer.set(Aov::textureAge, pixel, texture.age);
-  buffer.set(Aov::textureDistortion, pixel, texture.distortion);
-  buffer.set(Aov::textureId, pixel, texture.id);
-}
-
-/// The data channels of one pixel, from the ray through its centre.
-void shadeData(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer& buffer) {
-  const CameraRay ray = s.camera.rayThrough(Vec2d(x + 0.5, y + 0.5));
-  SurfaceHit hit;
-  if (!s.scene.intersect(ray.ray, hit)) return;
-  const Appearance appearance = s.materials.at(hit, ray.ray.direction, ray.widthAt(hit.distanceWorld));
-  buffer.set(Aov::albedoR, pixel, appearance.material.albedo);
-  buffer.set(Aov::depth, pixel, static_cast<float>(s.camera.depth(hit.position)));
-  buffer.set(Aov::positionX, pixel, hit.position);
-  buffer.set(Aov::normalX, pixel, hit.normal);
-  if (hit.kind == SurfaceKind::fluid) shadeFluidData(s, hit, appearance.texture, pixel, buffer);
-}
-
-void shadeTiles(const Shading& s, FrameBuffer& buffer) {
-  const int width = s.camera.width(), height = s.camera.height();
-  const int across = (width + tileSize - 1) / tileSize, down = (height + tileSize - 1) / tileSize;
-  parallelFor(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), 1, [&](std::size_t tile) {
-    const int left = static_cast<int>(tile % static_cast<std::size_t>(across)) * tileSize;
-    const int top = static_cast<int>(tile / static_cast<std::size_t>(across)) * tileSize;
-    for (int y = top; y < std::min(top + tileSize, height); ++y)
-      for (int x = left; x < std::min(left + tileSize, width); ++x) {
-        const std::size_t pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        // A sliver may be met by the centre and by no sample: data is 0 where A is 0.
-        if (shadeBeauty(s, x, y, pixel, buffer) > 0.0f) shadeData(s, x, y, pixel, buffer);
-      }
+void writePixels(const std::vector<PixelSamples>& samples, const DataScene& data, bool variance, FrameBuffer& buffer) {
+  const auto width = static_cast<std::size_t>(data.camera.width());
+  parallelFor(samples.size(), 256, [&](std::size_t pixel) {
+    writeBeauty(samples[pixel], pixel, variance, buffer);
+    // A sliver may be met by the centre and by no sample: data is 0 where A is 0.
+    if (samples[pixel].alpha > 0.0f)
+      writeDataChannels(data, static_cast<int>(pixel % width), static_cast<int>(pixel / width), pixel, buffer);
   });
+}
+
+/// The lit picture alone, as far as it is.
+ChannelImage unfinishedPicture(const std::vector<PixelSamples>& samples, int width, int height) {
+  ChannelImage image;
+  image.width = width;
+  image.height = height;
+  for (std::size_t c = 0; c < 4; ++c) {
+    image.add(std::string(aovTable()[c].channel), aovTable()[c].type);
+    std::vector<float>& plane = image.channels.back().data;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      plane[i] = c < 3 ? samples[i].mean()[static_cast<int>(c)] : samples[i].meanAlpha();
+  }
+  return image;
 }
 
 }  // namespace
@@ -119,12 +61,21 @@ struct Renderer::Impl {
   PhaseTimes* times;
   Camera camera;
   Lights lights;
-  PixelFilter filter;
   std::vector<TriangleMesh> obstacles;
 
   Impl(const SceneOptions& o, std::uint64_t s, PhaseTimes* t)
-      : options(o), seed(s), times(t), camera(o.camera), lights(o.lights), filter(o.render.filter_width_px) {
+      : options(o), seed(s), times(t), camera(o.camera), lights(o.lights) {
     for (const ObstacleOptions& obstacle : o.obstacles) obstacles.push_back(makeObstacle(obstacle));
+  }
+
+  SamplingPlan samplingPlan(const FluidFrame& fluid) const {
+    SamplingPlan plan;
+    plan.spp = options.render.spp;
+    plan.noise = static_cast<float>(options.render.noise);
+    plan.filterWidthPx = options.render.filter_width_px;
+    plan.seed = seed;
+    plan.noiseFrame = options.render.animate_seed ? static_cast<std::uint64_t>(fluid.frame) : 0;
+    return plan;
   }
 
   void addAttributes(const FluidFrame& fluid, ChannelImage& image) const {
@@ -141,9 +92,11 @@ Renderer::Renderer(const SceneOptions& options, std::uint64_t seed, PhaseTimes* 
 
 Renderer::~Renderer() = default;
 
-ChannelImage Renderer::render(const RenderInput& input) const {
+ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& progress) const {
   if (!input.current) throw BugError("Renderer::render: no current frame");
   const FluidFrame& fluid = *input.current;
+  const RenderOptions& options = impl_->options.render;
+  const Camera& camera = impl_->camera;
   FluidGeometry geometry;
   geometry.mesh = &fluid.mesh;
   std::unique_ptr<Scene> scene;
@@ -151,18 +104,23 @@ ChannelImage Renderer::render(const RenderInput& input) const {
     const PhaseTimer timer(impl_->times, "render: hierarchy");
     scene = std::make_unique<Scene>(geometry, impl_->obstacles, impl_->options.ground, fluid.source);
   }
-  const PhaseTimer timer(impl_->times, "render: trace");
   const Materials materials(impl_->options, input.texture);
-  const PathIntegrator integrator({*scene, materials, impl_->lights},
-                                  {impl_->options.render.max_bounces,
-                                   static_cast<float>(impl_->options.render.clamp), impl_->options.render.background});
-  const MotionVectors motion(impl_->camera, input.previous, fluid, input.next);
-  FrameBuffer buffer(impl_->camera.width(), impl_->camera.height());
-  const RenderOptions& options = impl_->options.render;
-  const auto noiseFrame = options.animate_seed ? static_cast<std::uint64_t>(fluid.frame) : 0;
-  shadeTiles({impl_->camera, fluid, *scene, materials, integrator, motion, impl_->filter, impl_->seed, noiseFrame,
-              options.spp},
-             buffer);
+  std::vector<PixelSamples> samples;
+  {
+    const PhaseTimer timer(impl_->times, "render: light");
+    const PathIntegrator integrator({*scene, materials, impl_->lights},
+                                    {options.max_bounces, static_cast<float>(options.clamp), options.background});
+    SampleProgress watch;
+    if (progress)
+      watch = [&](const std::vector<PixelSamples>& s) {
+        progress(unfinishedPicture(s, camera.width(), camera.height()));
+      };
+    samples = renderBeauty(camera, integrator, impl_->samplingPlan(fluid), watch, fmt::format("frame {}", fluid.frame));
+  }
+  const PhaseTimer timer(impl_->times, "render: data channels");
+  const MotionVectors motion(camera, input.previous, fluid, input.next);
+  FrameBuffer buffer(camera.width(), camera.height(), options.variance);
+  writePixels(samples, {camera, fluid, *scene, materials, motion}, options.variance, buffer);
   ChannelImage image = buffer.take();
   impl_->addAttributes(fluid, image);
   return image;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 
 #include "core/progress.h"
@@ -20,14 +21,17 @@ struct RenderInput {
   const TextureField* texture = nullptr;  ///< of `current`; null shows the fluid in its plain colour
 };
 
+/// Called now and then with the lit picture (R G B A) as far as it is.
+using RenderProgress = std::function<void(const ChannelImage&)>;
+
 /// Ray-traces frames with Embree; colour is resolved at the hit through TextureField::lookup.
 ///
-/// Data channels come from one ray through the pixel centre; R G B A from render.spp samples of which each
-/// makes one look-up. Const members are safe to call concurrently.
+/// Data channels come from one ray through the pixel centre; R G B A from up to render.spp paths of which each
+/// makes one look-up wherever it meets the fluid. Const members are safe to call concurrently.
 class Renderer {
  public:
   /// @param seed  of the shot: pixel sampling
-  /// @param times  where "render: hierarchy" and "render: trace" are timed; may be null
+  /// @param times  where "render: ..." is timed; may be null
   /// @throw UsageError for a camera or a light without direction; InputError if an environment image cannot
   /// be read
   Renderer(const SceneOptions& options, std::uint64_t seed, PhaseTimes* times);
@@ -35,8 +39,9 @@ class Renderer {
 
   /// All channels of docs/aovs.md and the header attributes worldToCamera, worldToNDC, framesPerSecond,
   /// imageCounter and ebru:spp; the caller adds the shot's. Bit-identical for any number of threads.
+  /// @param progress  called from the calling thread; it costs more rounds over the picture
   /// @throw InputError if the mesh is not one; BugError naming the pixel if a colour is not finite
-  ChannelImage render(const RenderInput& input) const;
+  ChannelImage render(const RenderInput& input, const RenderProgress& progress = {}) const;
 
  private:
   struct Impl;

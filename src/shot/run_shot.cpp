@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 #include "io/exr_file.h"
@@ -17,6 +18,20 @@
 
 namespace ebru {
 namespace {
+
+/// Lets something happen every few seconds.
+class Occasionally {
+ public:
+  bool now() {
+    const auto time = std::chrono::steady_clock::now();
+    if (time - last_ < std::chrono::seconds(3)) return false;
+    last_ = time;
+    return true;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 /// A preview of every frame of the run, those included that were there already, and the movie of them.
 class Previews {
@@ -128,7 +143,12 @@ void renderShot(const Shot& shot, const RunOptions& options) {
       pipeline.log().stage(frame, "picture");
       const auto previous = pipeline.fluid(frame - 1), current = pipeline.fluid(frame),
                  next = pipeline.fluid(frame + 1);
-      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get()});
+      RenderProgress watch;
+      if (options.preview)
+        watch = [&, occasionally = Occasionally()](const ChannelImage& unfinished) mutable {
+          if (occasionally.now()) previews.write(frame, unfinished);
+        };
+      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get()}, watch);
       addShotAttributes(image, shot, pipeline.identity().picture(frame));
       pipeline.log().stage(frame, "writing");
       {

@@ -6,6 +6,9 @@
 
 A case is a folder with `args` (the shot, relative to the folder, and arguments of `ebru render`), `methods`, `tolerances`
 (see tests/tools/compare_exr.cpp) and a README.md. A missing reference and a picture without one both fail.
+
+A case with `reference_args` instead of `tolerances` is of light: its references are rendered with those arguments too (many
+samples, another seed), and R, G, B are compared by a z-test (z_test.py) instead of pixel by pixel.
 """
 
 import argparse
@@ -16,20 +19,33 @@ import subprocess
 import sys
 import tempfile
 
+import z_test
+
 CASES = pathlib.Path(__file__).resolve().parent
 REFERENCES = CASES.parents[1] / "reference_images"
 
 
-def arguments_of(case):
+def words_of(file):
+    return shlex.split(file.read_text(), comments=True)
+
+
+def is_statistical(case):
+    return (CASES / case / "reference_args").exists()
+
+
+def arguments_of(case, reference):
     """The words of `args`; the first is the shot."""
-    text = (CASES / case / "args").read_text()
-    words = shlex.split(text, comments=True)
+    words = words_of(CASES / case / "args")
     words[0] = str((CASES / case / words[0]).resolve())
+    if is_statistical(case):
+        words += ["--set", "render.variance=true"]
+        if reference:
+            words += words_of(CASES / case / "reference_args")
     return words
 
 
-def render(ebru, case, method, folder):
-    command = [ebru, "render", *arguments_of(case), "--method", method, "--out", str(folder), "--overwrite"]
+def render(ebru, case, method, folder, reference):
+    command = [ebru, "render", *arguments_of(case, reference), "--method", method, "--out", str(folder), "--overwrite"]
     print(shlex.join(command), flush=True)
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode != 0:
@@ -46,7 +62,16 @@ def write(rendered, references):
         print(f"wrote {references / picture.name}")
 
 
-def compare(program, rendered, references, tolerances):
+def differences(program, result, reference, case, folder):
+    """@return what is wrong, one line each"""
+    if is_statistical(case):
+        return z_test.compare_files(result, reference, folder)
+    tolerances = CASES / case / "tolerances"
+    run = subprocess.run([program, reference, result, tolerances], capture_output=True, text=True)
+    return [] if run.returncode == 0 else [f"{run.stdout}{run.stderr}".rstrip()]
+
+
+def compare(program, rendered, references, case):
     made = {p.name for p in rendered.glob("*.exr")}
     kept = {p.name for p in references.glob("*.exr")} if references.exists() else set()
     bad = [f"{name}: no reference in {references}; scripts/make_references writes it" for name in sorted(made - kept)]
@@ -54,9 +79,8 @@ def compare(program, rendered, references, tolerances):
     if not made:
         bad.append("nothing was rendered")
     for name in sorted(made & kept):
-        run = subprocess.run([program, references / name, rendered / name, tolerances], capture_output=True, text=True)
-        if run.returncode != 0:
-            bad.append(f"{name}:\n{run.stdout}{run.stderr}".rstrip())
+        wrong = differences(program, rendered / name, references / name, case, rendered)
+        bad += [f"{name}:", *wrong] if wrong else []
     return bad
 
 
@@ -72,11 +96,11 @@ def main():
     references = REFERENCES / arguments.case / arguments.method
     with tempfile.TemporaryDirectory(prefix="ebru_regression_") as folder:
         rendered = pathlib.Path(folder)
-        render(arguments.ebru, arguments.case, arguments.method, rendered)
+        render(arguments.ebru, arguments.case, arguments.method, rendered, reference=arguments.write)
         if arguments.write:
             write(rendered, references)
             return
-        bad = compare(arguments.compare, rendered, references, CASES / arguments.case / "tolerances")
+        bad = compare(arguments.compare, rendered, references, arguments.case)
         if bad:
             # Kept for a look: the difference of two pictures says more than a number.
             kept = pathlib.Path(tempfile.mkdtemp(prefix=f"ebru_{arguments.case}_{arguments.method}_"))

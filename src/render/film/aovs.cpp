@@ -37,14 +37,17 @@ const std::array<AovInfo, aovCount>& aovTable() {
       {"texture.id", float32, "", "particle or patch, an integer below 2^24"},
       {"texture.mask", float32, "0 or 1",
        "1 where the fluid's surface is what the pixel sees, also in a hole"},
+      {"samples", float32, "", "samples that the lit picture took here"},
   }};
   return table;
 }
 
-FrameBuffer::FrameBuffer(int width, int height) {
+FrameBuffer::FrameBuffer(int width, int height, bool variance) {
   image_.width = width;
   image_.height = height;
   for (const AovInfo& aov : aovTable()) image_.add(std::string(aov.channel), aov.type);
+  if (variance)
+    for (const char* channel : {"variance.R", "variance.G", "variance.B"}) image_.add(channel, ChannelType::float32);
 }
 
 }  // namespace ebru

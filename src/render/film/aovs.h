@@ -22,6 +22,7 @@ enum class Aov : std::size_t {
   forwardU, forwardV,
   backwardU, backwardV,
   textureS, textureT, textureAge, textureDistortion, textureId, textureMask,
+  samples,
   count
 };
 // clang-format on
@@ -39,7 +40,8 @@ const std::array<AovInfo, aovCount>& aovTable();
 /// The planes of one picture. Writing different pixels concurrently is safe.
 class FrameBuffer {
  public:
-  FrameBuffer(int width, int height);
+  /// @param variance  whether there are channels variance.R, .G and .B
+  FrameBuffer(int width, int height, bool variance = false);
 
   void set(Aov aov, std::size_t pixel, float value) {
     image_.channels[static_cast<std::size_t>(aov)].data[pixel] = value;
@@ -52,6 +54,10 @@ class FrameBuffer {
   void set(Aov first, std::size_t pixel, const Vec2f& value) {
     for (int i = 0; i < 2; ++i)
       set(Aov(static_cast<std::size_t>(first) + static_cast<std::size_t>(i)), pixel, value[i]);
+  }
+
+  void setVariance(std::size_t pixel, const Vec3f& value) {
+    for (std::size_t i = 0; i < 3; ++i) image_.channels[aovCount + i].data[pixel] = value[static_cast<int>(i)];
   }
 
   /// The picture; leaves the frame buffer empty.
