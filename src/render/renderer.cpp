@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/floating_point_traps.h"
 #include "core/parallel.h"
 #include "render/film/aovs.h"
 #include "render/film/data_channels.h"
@@ -32,6 +33,7 @@ void writeBeauty(const PixelSamples& samples, std::size_t pixel, bool variance, 
 void writePixels(const std::vector<PixelSamples>& samples, const DataScene& data, bool variance, FrameBuffer& buffer) {
   const auto width = static_cast<std::size_t>(data.camera.width());
   parallelFor(samples.size(), 256, [&](std::size_t pixel) {
+    const FloatingPointTraps trapped(true);
     writeBeauty(samples[pixel], pixel, variance, buffer);
     // A sliver may be met by the centre and by no sample: data is 0 where A is 0.
     if (samples[pixel].alpha > 0.0f)

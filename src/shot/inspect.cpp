@@ -44,6 +44,7 @@ bool isNumberedFile(const std::string& file, std::string& pattern, int& frame) {
 
 /// One line per image, and what they are together.
 std::string describe(const TextureOptions& options) {
+  if (options.exemplar.empty()) return "no exemplar\n";
   const std::shared_ptr<const Exemplar> exemplar = openExemplar(options);
   std::string maps = "colour";
   const auto add = [&](const char* name, const std::vector<std::string>& files) {

@@ -170,6 +170,9 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (readsFiles(shot.fluid) && shot.fluid.path.empty())
     problems.push_back(fmt::format("{}: fluid.path is missing: the cache's files, e.g. \"caches/dam/dam.####.{}\"",
                                    placeOf(config, shot, "fluid", "path"), shot.fluid.source == "mesh" ? "ply" : "vdb"));
+  if (shot.texture.exemplar.empty() && shot.texture.method != "plain")
+    problems.push_back(fmt::format("{}: texture.exemplar is missing: an example image, or texture.method = \"plain\"",
+                                   placeOf(config, shot, "texture", "exemplar")));
   const CameraOptions& camera = shot.scene.camera;
   if (camera.position == camera.target)
     problems.push_back(fmt::format("{}: camera.target: got the camera's own position, expected another point",

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "texturing/erosion/erosion_method.h"
 #include "texturing/particles/particles_method.h"
+#include "texturing/plain_method.h"
 #include "texturing/quilt/quilt_method.h"
 #include "texturing/synthesis/synthesis_method.h"
 #include "texturing/texture_method.h"
@@ -36,6 +37,7 @@ const std::vector<Entry>& registry() {
       {{"erosion", "deformable lapped patches, eroded along the exemplar's features where they are distorted (Gagnon 2021)"},
        blind(makeErosionMethod)},
       {{"quilt", "ours: texture follows the flow strictly, worn pieces are quilted anew along least-error cuts"}, makeQuiltMethod},
+      {{"plain", "no texture: the fluid in its material's colour"}, blind(makePlainMethod)},
   };
   return entries;
 }

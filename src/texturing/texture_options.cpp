@@ -21,8 +21,8 @@ OptionFields fields(TextureOptions& o) {
       {.key = "method", .target = &o.method, .help = "texture method; `ebru methods` explains them", .choices = methods},
       {.key = "exemplar",
        .target = &o.exemplar,
-       .help = "example image, sRGB if 8 or 16 bit, scene-linear if float; of several, pieces of all are mixed",
-       .required = true,
+       .help = "example image, sRGB if 8 or 16 bit, scene-linear if float; of several, pieces of all are mixed; every "
+               "method but plain needs one",
        .path = true},
       map("height", o.height, "grey height map of the exemplar's size, 0 low to 1 high; one per exemplar, as the maps below"),
       map("roughness", o.roughness, "grey map of what stands in for material.roughness, 0 smooth to 1 rough"),

@@ -10,7 +10,7 @@ def test_version_help_and_methods(folder):
     for command in ("render", "synth", "export", "inspect"):
         assert "--set" in ebru(command, "--help").stdout
     methods = ebru("methods").stdout
-    assert all(name in methods for name in ("particles", "synthesis", "quilt"))
+    assert all(name in methods for name in ("particles", "synthesis", "quilt", "plain"))
 
 
 def test_reference_of_the_shot_file_is_the_programs(folder):

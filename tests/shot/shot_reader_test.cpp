@@ -116,6 +116,9 @@ TEST_F(ShotReader, ChecksFramesTogether) {
 
 TEST_F(ShotReader, AsksForWhatIsMissing) {
   EXPECT_TRUE(says(problemsOf("[texture]\nexemplar = \"a.png\"\n"), "fluid.path is missing"));
+  const std::string fluid = "[fluid]\nsource = \"procedural\"\n";
+  EXPECT_TRUE(says(problemsOf(fluid), "texture.exemplar is missing"));
+  EXPECT_TRUE(problemsOf(fluid + "[texture]\nmethod = \"plain\"\n").empty());
 }
 
 TEST_F(ShotReader, SaysWhereTheFileIsNotToml) {

@@ -107,10 +107,11 @@ inline float texelFor(const zoo::Fluid& fluid, double wantedParticles = 1200.0) 
   return area > 0.0 ? static_cast<float>(spacing / 0.82) : 0.05f;
 }
 
-/// Every method, and those that an option makes another one of.
+/// Every method that textures, and those that an option makes another one of.
 inline std::vector<std::string> methodVariants() {
   std::vector<std::string> names;
-  for (const TextureMethodInfo& method : textureMethods()) names.push_back(method.name);
+  for (const TextureMethodInfo& method : textureMethods())
+    if (method.name != "plain") names.push_back(method.name);
   for (const char* variant : {"synthesis_through_grid", "erosion_by_texel", "erosion_one_by_one", "erosion_blended"})
     names.emplace_back(variant);
   return names;

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/floating_point_traps.h"
 
 namespace ebru {
 namespace {
@@ -61,6 +62,7 @@ void filterHit(const RTCFilterFunctionNArguments* arguments) {
   hit.triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
   hit.barycentric = Vec2f(RTCHitN_u(arguments->hit, arguments->N, 0), RTCHitN_v(arguments->hit, arguments->N, 0));
   hit.distanceWorld = RTCRayN_tfar(arguments->ray, arguments->N, 0);
+  const FloatingPointTraps trapped(true);
   if (!context->filter->counts(*context->ray, hit)) arguments->valid[0] = 0;
 }
 
@@ -147,6 +149,7 @@ EmbreeScene::~EmbreeScene() = default;
 
 bool EmbreeScene::intersect(const Ray& ray, MeshHit& hit) const {
   FilterContext context{{}, impl_->filter, &ray};
+  const FloatingPointTraps untrapped(false);
   RTCRayHit rayHit;
   setRay(ray, rayHit.ray);
   rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -162,6 +165,7 @@ bool EmbreeScene::intersect(const Ray& ray, MeshHit& hit) const {
 
 bool EmbreeScene::occluded(const Ray& ray) const {
   FilterContext context{{}, impl_->filter, &ray};
+  const FloatingPointTraps untrapped(false);
   RTCRay query;
   setRay(ray, query);
   occludedOne(impl_->scene, context, query);

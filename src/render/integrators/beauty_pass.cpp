@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/floating_point_traps.h"
 #include "core/parallel.h"
 
 namespace ebru {
@@ -46,6 +47,7 @@ class Tiles {
 
  private:
   bool sampleTile(int tile, int count) {
+    const FloatingPointTraps trapped(true);
     const int left = tile % across_ * tileSize, top = tile / across_ * tileSize;
     const int right = std::min(left + tileSize, camera_.width()), bottom = std::min(top + tileSize, camera_.height());
     float error = 0.0f;
