@@ -61,7 +61,7 @@ const std::vector<ShotTable>& shotTables() {
                             [](Shot& s) -> auto& { return s.scene.render; }),
       single<MaterialOptions>("material", "What the fluid is made of.", pictures,
                               [](Shot& s) -> auto& { return s.scene.material; }),
-      array<LightOptions>("light", "One light each.", [](Shot& s) -> auto& { return s.scene.lights; }),
+      array<LightOptions>("light", "One light each; without any a clear sky with its sun.", [](Shot& s) -> auto& { return s.scene.lights; }),
       single<GroundOptions>("ground", "A plane below the fluid.", pictures,
                             [](Shot& s) -> auto& { return s.scene.ground; }),
       array<ObstacleOptions>("obstacle", "Solid things that stand in the fluid; they are drawn, not simulated.",
