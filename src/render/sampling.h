@@ -3,6 +3,7 @@
 /// Low-discrepancy points and the warps that shape them.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -99,14 +100,17 @@ inline Vec3f sampleCosine(const Vec2f& u) {
   return {d.x(), d.y(), std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm()))};
 }
 
-/// Uniform in solid angle in the cone about +z with the given half angle.
-inline Vec3f sampleCone(const Vec2f& u, float cosHalfAngle) {
+/// Uniform in solid angle in the cone about +z of which 1 - cos of the half angle is given, which is exact for narrow
+/// cones too; 2 is the whole sphere.
+inline Vec3f sampleConeOf(const Vec2f& u, float oneMinusCosine) {
   const Vec2f d = sampleDisc(u);
-  const float r2 = d.squaredNorm();
-  const float cosine = 1.0f - r2 * (1.0f - cosHalfAngle);
-  const float scale = std::sqrt(std::max(0.0f, (1.0f - cosHalfAngle) * (1.0f + cosine)));
-  return {d.x() * scale, d.y() * scale, cosine};
+  const float height = std::min(d.squaredNorm(), 1.0f) * oneMinusCosine;
+  const float scale = std::sqrt(std::max(0.0f, oneMinusCosine * (2.0f - height)));
+  return {d.x() * scale, d.y() * scale, 1.0f - height};
 }
+
+/// Uniform in solid angle in the cone about +z with the given half angle.
+inline Vec3f sampleCone(const Vec2f& u, float cosHalfAngle) { return sampleConeOf(u, 1.0f - cosHalfAngle); }
 
 /// Offsets from the pixel centre distributed as a separable Blackman-Harris window, so that samples average
 /// with equal weights [Ernst et al. 2006].

@@ -5,119 +5,135 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/error.h"
-#include "io/image_file.h"
+#include "core/parallel.h"
 
 namespace ebru {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr float turn = static_cast<float>(2.0 * pi);
 
-double luminance(const Vec3f& colour) {
-  return 0.2126 * colour.x() + 0.7152 * colour.y() + 0.0722 * colour.z();
-}
-
-/// Index of the cell of a running sum up to 1 into which `target` falls, and how far into it.
-int findCell(const float* sums, int count, float target, float& within) {
-  const int cell = std::min(static_cast<int>(std::upper_bound(sums, sums + count, target) - sums), count - 1);
-  const float before = cell ? sums[cell - 1] : 0.0f;
-  const float size = sums[cell] - before;
-  within = size > 0.0f ? std::clamp((target - before) / size, 0.0f, 1.0f) : 0.5f;
-  return cell;
-}
-
-/// Running sums of `weights` divided by their total, which is returned; all zero if that is.
-double accumulate(const double* weights, int count, float* sums) {
-  double total = 0.0, sum = 0.0;
-  for (int i = 0; i < count; ++i) total += weights[i];
-  for (int i = 0; i < count; ++i)
-    sums[i] = total > 0.0 ? static_cast<float>((sum += weights[i]) / total) : 0.0f;
-  return total;
-}
-
-}  // namespace
-
-Environment::Environment(const LightOptions& options)
-    : rotation_(static_cast<float>(options.rotation_deg * pi / 180.0)) {
-  const Vec3f colour =
-      (Vec3d(options.colour[0], options.colour[1], options.colour[2]) * options.intensity).cast<float>();
-  if (options.image.empty()) {
-    constant_ = colour;
-    return;
-  }
-  const LoadedImage image = readImage(options.image, true);
+LoadedImage readEnvironment(const std::string& path) {
+  if (path.empty()) return {};
+  LoadedImage image = readImage(path, true);
   if (image.channels < 3)
     throw InputError(
         fmt::format("{}: environment image: got {} channel(s), expected red, green and blue; save it in "
                     "colour",
-                    options.image, image.channels));
-  width_ = image.width;
-  height_ = image.height;
-  pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    const float* p = image.data.data() + i * static_cast<std::size_t>(image.channels);
-    // Resampled pictures undershoot slightly beside bright spots.
-    const Vec3f value = Vec3f(p[0], p[1], p[2]).cwiseMax(0.0f);
-    pixels_[i].radiance = value.cwiseProduct(colour);
-  }
-  buildDistribution();
+                    path, image.channels));
+  return image;
 }
 
-void Environment::buildDistribution() {
-  for (int y = 0; y <= height_; ++y) rowCosine_.push_back(static_cast<float>(std::cos(pi * y / height_)));
-  conditional_.resize(pixels_.size());
-  std::vector<double> rows, row(static_cast<std::size_t>(width_));
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) row[static_cast<std::size_t>(x)] = luminance(pixels_[at(x, y)].radiance);
-    const double solidAngle = std::cos(pi * y / height_) - std::cos(pi * (y + 1) / height_);
-    rows.push_back(solidAngle * accumulate(row.data(), width_, &conditional_[at(0, y)]));
+/// 1 - cosine, without cancellation.
+double versine(double angle) {
+  const double s = std::sin(0.5 * angle);
+  return 2.0 * s * s;
+}
+
+}  // namespace
+
+Vec3d latLongDirection(const Vec2d& at) {
+  const double azimuth = 2.0 * pi * (at.x() - 0.5), polar = pi * at.y();
+  return {std::sin(polar) * std::sin(azimuth), std::sin(polar) * std::cos(azimuth), std::cos(polar)};
+}
+
+Environment::Environment(const LightOptions& options)
+    : Environment(
+          readEnvironment(options.image),
+          (Vec3d(options.colour[0], options.colour[1], options.colour[2]) * options.intensity).cast<float>(),
+          static_cast<float>(options.rotation_deg * pi / 180.0)) {}
+
+Environment::Environment(LoadedImage image, const Vec3f& factor, float rotationRad)
+    : image_(std::move(image)), factor_(factor), rotation_(rotationRad) {
+  if (!image_.data.empty()) prepare();
+}
+
+void Environment::prepare() {
+  // Resampled pictures undershoot slightly beside bright spots.
+  parallelBlocks(image_.data.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) image_.data[i] = std::max(image_.data[i], 0.0f);
+  });
+  const int height = image_.height;
+  for (int y = 0; y < height; ++y) {
+    const double above = pi * y / height, below = pi * (y + 1) / height;
+    const bool top = 2 * y + 1 <= height;
+    const double upper = versine(top ? above : pi - above), lower = versine(top ? below : pi - below);
+    rows_.push_back({top ? 1.0f : -1.0f, static_cast<float>(upper), static_cast<float>(lower),
+                     static_cast<float>(image_.width / (2.0 * pi * std::abs(lower - upper)))});
   }
-  std::vector<float> marginal(rows.size());
-  const double total = accumulate(rows.data(), height_, marginal.data());
-  if (!(total > 0.0)) return;
-  marginal_ = std::move(marginal);
-  for (Pixel& pixel : pixels_)
-    pixel.pdf = static_cast<float>(luminance(pixel.radiance) * width_ / (2.0 * pi * total));
+  distribution_ = Distribution2d(image_.width, height,
+                                 [this](int y, std::vector<double>& weights) { rowWeights(y, weights); });
+}
+
+void Environment::rowWeights(int y, std::vector<double>& weights) const {
+  // The mean of a bilinear function over a pixel weighs its centre by 3/4 and its neighbours by 1/8, each
+  // way.
+  const Vec3f luminance = factor_.cwiseProduct(Vec3f(0.2126f, 0.7152f, 0.0722f));
+  std::vector<double> line(weights.size());
+  for (int dy = -1; dy <= 1; ++dy) {
+    const float* p = pixel(0, std::clamp(y + dy, 0, image_.height - 1));
+    for (std::size_t x = 0; x < line.size(); ++x, p += image_.channels)
+      line[x] += (dy == 0 ? 0.75 : 0.125) * luminance.dot(Vec3f(p[0], p[1], p[2]));
+  }
+  const double solidAngle = 1.0 / rows_[static_cast<std::size_t>(y)].cellsPerSteradian;
+  const std::size_t last = line.size() - 1;
+  for (std::size_t x = 0; x <= last; ++x)
+    weights[x] =
+        solidAngle * (0.75 * line[x] + 0.125 * (line[x > 0 ? x - 1 : last] + line[x < last ? x + 1 : 0]));
+}
+
+Vec3f Environment::radianceAt(float x, float y) const {
+  const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f);
+  const float across = x - 0.5f - left, down = y - 0.5f - top;
+  const auto column = static_cast<int>(left), row = static_cast<int>(top);
+  const int x0 = column < 0 ? image_.width - 1 : column, x1 = column + 1 < image_.width ? column + 1 : 0;
+  const int y0 = std::max(row, 0), y1 = std::min(row + 1, image_.height - 1);
+  const auto mixed = [&](int line) -> Vec3f {
+    return (1.0f - across) * Eigen::Map<const Vec3f>(pixel(x0, line)) +
+           across * Eigen::Map<const Vec3f>(pixel(x1, line));
+  };
+  return factor_.cwiseProduct((1.0f - down) * mixed(y0) + down * mixed(y1));
 }
 
 bool Environment::seenAlong(const Ray& ray, LightSeen& seen) const {
   if (ray.farWorld < std::numeric_limits<float>::infinity()) return false;
   seen.distanceWorld = std::numeric_limits<float>::infinity();
-  if (pixels_.empty()) {
-    seen.radiance = constant_;
-    seen.pdf = 0.0f;
+  seen.pdf = 0.0f;
+  if (image_.data.empty()) {
+    seen.radiance = factor_;
     return true;
   }
   const Vec3f& towards = ray.direction;
-  constexpr float turn = static_cast<float>(2.0 * pi);
   float across = (std::atan2(towards.x(), towards.y()) + rotation_) / turn + 0.5f;
   across -= std::floor(across);
-  const float down = std::acos(std::clamp(towards.z(), -1.0f, 1.0f)) / static_cast<float>(pi);
-  const int x = std::min(static_cast<int>(across * static_cast<float>(width_)), width_ - 1);
-  const int y = std::min(static_cast<int>(down * static_cast<float>(height_)), height_ - 1);
-  const Pixel& pixel = pixels_[at(x, y)];
-  seen.radiance = pixel.radiance;
-  seen.pdf = pixel.pdf;
+  const float polar = std::atan2(towards.head<2>().norm(), towards.z());
+  const auto width = static_cast<float>(image_.width), height = static_cast<float>(image_.height);
+  const float x = across * width, y = polar / static_cast<float>(pi) * height;
+  const int column = std::min(static_cast<int>(x), image_.width - 1);
+  const int row = std::min(static_cast<int>(y), image_.height - 1);
+  seen.radiance = radianceAt(std::min(x, width), std::min(y, height));
+  if (!distribution_.empty())
+    seen.pdf =
+        distribution_.probability(column, row) * rows_[static_cast<std::size_t>(row)].cellsPerSteradian;
   return true;
 }
 
 LightSample Environment::sample(const Vec3f& /*fromWorld*/, const Vec2f& u) const {
-  float down, across;
-  const int y = findCell(marginal_.data(), height_, u.y(), down);
-  const int x = findCell(&conditional_[at(0, y)], width_, u.x(), across);
-  // Uniform in solid angle within the pixel: linear in the cosine of the polar angle.
-  const float top = rowCosine_[static_cast<std::size_t>(y)],
-              bottom = rowCosine_[static_cast<std::size_t>(y) + 1];
-  const float z = top + down * (bottom - top);
-  const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
-  const float azimuth =
-      static_cast<float>(2.0 * pi) * ((static_cast<float>(x) + across) / static_cast<float>(width_) - 0.5f) -
-      rotation_;
+  const Distribution2d::Place place = distribution_.sample(u);
+  const Row& row = rows_[static_cast<std::size_t>(place.y)];
+  // Uniform in solid angle within the cell: linear in the cosine of the polar angle.
+  const float height = row.upper + place.within.y() * (row.lower - row.upper);
+  const float z = row.sign * (1.0f - height), radius = std::sqrt(std::max(0.0f, height * (2.0f - height)));
+  const float x = static_cast<float>(place.x) + place.within.x();
+  const float azimuth = turn * (x / static_cast<float>(image_.width) - 0.5f) - rotation_;
+  const float y = std::atan2(radius, z) / static_cast<float>(pi) * static_cast<float>(image_.height);
   LightSample sample;
   sample.towards = Vec3f(radius * std::sin(azimuth), radius * std::cos(azimuth), z);
-  sample.radiance = pixels_[at(x, y)].radiance;
-  sample.pdf = pixels_[at(x, y)].pdf;
+  sample.radiance = radianceAt(x, std::min(y, static_cast<float>(image_.height)));
+  sample.pdf = place.probability * row.cellsPerSteradian;
   return sample;
 }
 

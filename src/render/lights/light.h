@@ -7,6 +7,10 @@
 
 namespace ebru {
 
+/// A light that is seen under less than this, in steradians, is taken for a point: its directions differ by
+/// less than floats tell, and the squares of its density would leave their range.
+constexpr double pointSolidAngle = 1e-10;
+
 /// Light that a chosen direction brings to a point, if nothing is in between.
 struct LightSample {
   Vec3f towards = Vec3f::UnitZ();  ///< unit
