@@ -10,8 +10,9 @@ namespace {
 
 /// Weight of a sampling technique with density `a` against one with `b` [Veach and Guibas 1995, power heuristic].
 float powerHeuristic(float a, float b) {
-  const float ratio = b / a;
-  return 1.0f / (1.0f + ratio * ratio);
+  // The smaller over the larger: squares of steep densities overflow.
+  const float ratio = std::min(a, b) / std::max(a, b), square = ratio * ratio;
+  return (a >= b ? 1.0f : square) / (1.0f + square);
 }
 
 /// How much wider the footprint of a path grows per metre after a scattering of that density. Blurred look-ups
