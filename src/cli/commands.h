@@ -31,14 +31,21 @@ struct ShotArguments {
   RunOptions runOptions(const Shot& shot) const;
 };
 
-/// Adds SHOT, --set, --method, --size, --spp, --noise and --seed.
+/// Adds SHOT and --set.
+void addShotFile(CLI::App& command, ShotArguments& arguments);
+/// Adds what addShotFile does, --method, --size, --spp, --noise and --seed.
 void addShotArguments(CLI::App& command, ShotArguments& arguments);
+/// Adds --frames.
+void addFrames(CLI::App& command, ShotArguments& arguments);
+/// Adds --out and --threads.
+void addOutAndThreads(CLI::App& command, ShotArguments& arguments);
 /// Adds --frames, --chunk, --out, --states, --threads, --resume and --overwrite.
 void addRunArguments(CLI::App& command, ShotArguments& arguments);
 
 void addRenderCommand(CLI::App& app, Action& action, const std::string& commandLine);
 void addSynthCommand(CLI::App& app, Action& action, const std::string& commandLine);
 void addExportCommand(CLI::App& app, Action& action, const std::string& commandLine);
+void addPreviewCommand(CLI::App& app, Action& action);
 void addInspectCommand(CLI::App& app, Action& action);
 void addMethodsCommand(CLI::App& app, Action& action);
 void addOptionsCommand(CLI::App& app, Action& action);

@@ -33,6 +33,7 @@ int parseAndRun(int argc, char** argv, const std::string& commandLine) {
   Action action;
   addRenderCommand(app, action, commandLine);
   addSynthCommand(app, action, commandLine);
+  addPreviewCommand(app, action);
   addInspectCommand(app, action);
   addExportCommand(app, action, commandLine);
   addMethodsCommand(app, action);

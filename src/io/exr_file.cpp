@@ -5,12 +5,17 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
+#include <ImfInputPart.h>
 #include <ImfIntAttribute.h>
 #include <ImfMatrixAttribute.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
 #include <ImfRationalAttribute.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <fmt/format.h>
 #include <half.h>
 
@@ -18,8 +23,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <deque>
+#include <mutex>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "core/thread_count.h"
 #include "io/atomic_file.h"
 
 namespace ebru {
@@ -70,38 +79,123 @@ half toHalf(float value) {
   return half(value);
 }
 
-std::vector<char> encode(const std::string& name, const ChannelImage& image) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  Imf::Header header(image.width, image.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  for (const auto& [key, value] : image.attributes) std::visit(SetAttribute{header, key}, value);
+Imf::Compression compressionOf(const OutputOptions& options) {
+  if (options.compression == "none") return Imf::NO_COMPRESSION;
+  if (options.compression == "rle") return Imf::RLE_COMPRESSION;
+  if (options.compression == "zips") return Imf::ZIPS_COMPRESSION;
+  if (options.compression == "zip") return Imf::ZIP_COMPRESSION;
+  if (options.compression == "piz") return Imf::PIZ_COMPRESSION;
+  if (options.compression == "dwaa") return Imf::DWAA_COMPRESSION;
+  if (options.compression == "dwab") return Imf::DWAB_COMPRESSION;
+  throw BugError("writeExr: unknown compression \"" + options.compression + "\"");
+}
 
+bool isLossy(Imf::Compression compression) {
+  return compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+}
+
+void setLevel(Imf::Header& header, float level) {
+  header.dwaCompressionLevel() = level;
+  // Decides the pixels, but OpenEXR does not store it by itself.
+  header.insert("dwaCompressionLevel", Imf::FloatAttribute(level));
+}
+
+/// OpenEXR compresses on threads of its own. Blocks do not depend on each other, so the bytes are those of one thread.
+void matchThreads() {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  const int threads = allowedThreads(), wanted = threads > 1 ? threads : 0;
+  if (Imf::globalThreadCount() != wanted) Imf::setGlobalThreadCount(wanted);
+}
+
+/// What one part of a file is written from.
+struct Part {
+  Imf::Header header;
   Imf::FrameBuffer frame;
-  std::vector<std::vector<half>> halves;
-  halves.reserve(image.channels.size());
-  for (const ChannelImage::Channel& channel : image.channels) {
+};
+
+/// Gathers the channels of an image into parts; holds what is converted to half.
+class PartMaker {
+ public:
+  explicit PartMaker(const ChannelImage& image) : image_(image) {}
+
+  Part make(const std::string& name, Imf::Compression compression, bool halves, bool floats) {
+    Part part{Imf::Header(image_.width, image_.height), {}};
+    part.header.compression() = compression;
+    for (const auto& [key, value] : image_.attributes) std::visit(SetAttribute{part.header, key}, value);
+    if (!name.empty()) {
+      part.header.setName(name);
+      part.header.setType(Imf::SCANLINEIMAGE);
+    }
+    for (const ChannelImage::Channel& channel : image_.channels)
+      if (channel.type == ChannelType::half ? halves : floats) insert(channel, part);
+    return part;
+  }
+
+ private:
+  void insert(const ChannelImage::Channel& channel, Part& part) {
+    const auto columns = static_cast<std::size_t>(image_.width);
+    const std::size_t pixels = columns * static_cast<std::size_t>(image_.height);
     if (channel.data.size() != pixels)
       throw BugError(fmt::format("writeExr: channel \"{}\": got {} values, expected {}", channel.name,
                                  channel.data.size(), pixels));
     const bool isHalf = channel.type == ChannelType::half;
-    header.channels().insert(channel.name, Imf::Channel(isHalf ? Imf::HALF : Imf::FLOAT));
+    const Imf::PixelType type = isHalf ? Imf::HALF : Imf::FLOAT;
+    part.header.channels().insert(channel.name, Imf::Channel(type));
     const char* base = reinterpret_cast<const char*>(channel.data.data());
     if (isHalf) {
-      std::vector<half>& plane = halves.emplace_back(pixels);
-      std::transform(channel.data.begin(), channel.data.end(), plane.begin(), toHalf);
+      std::vector<half>& plane = halves_.emplace_back(pixels);
+      parallelBlocks(pixels, std::size_t{1} << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) plane[i] = toHalf(channel.data[i]);
+      });
       base = reinterpret_cast<const char*>(plane.data());
     }
     const std::size_t stride = isHalf ? sizeof(half) : sizeof(float);
-    frame.insert(channel.name, Imf::Slice(isHalf ? Imf::HALF : Imf::FLOAT, const_cast<char*>(base), stride,
-                                          stride * static_cast<std::size_t>(image.width)));
+    part.frame.insert(channel.name, Imf::Slice(type, const_cast<char*>(base), stride, stride * columns));
+  }
+
+  const ChannelImage& image_;
+  std::deque<std::vector<half>> halves_;
+};
+
+void writeParts(Imf::OStream& stream, const std::vector<Part>& parts, int rows) {
+  if (parts.size() == 1) {
+    Imf::OutputFile file(stream, parts[0].header);
+    file.setFrameBuffer(parts[0].frame);
+    file.writePixels(rows);
+    return;
+  }
+  std::vector<Imf::Header> headers;
+  for (const Part& part : parts) headers.push_back(part.header);
+  Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()), true);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Imf::OutputPart part(file, static_cast<int>(i));
+    part.setFrameBuffer(parts[i].frame);
+    part.writePixels(rows);
+  }
+}
+
+std::vector<char> encode(const std::string& name, const ChannelImage& image, const OutputOptions& options) {
+  const auto has = [&](ChannelType type) {
+    return std::any_of(image.channels.begin(), image.channels.end(),
+                       [&](const ChannelImage::Channel& channel) { return channel.type == type; });
+  };
+  matchThreads();
+  PartMaker maker(image);
+  const Imf::Compression asked = compressionOf(options);
+  std::vector<Part> parts;
+  if (!isLossy(asked) || !has(ChannelType::half)) {
+    parts.push_back(maker.make("", isLossy(asked) ? Imf::ZIP_COMPRESSION : asked, true, true));
+  } else {
+    // DWA tells colour from data by the last part of a channel's name: of P.X, P.Y and P.Z it would ruin P.Y, as luminance.
+    const bool hasData = has(ChannelType::float32);
+    parts.push_back(maker.make(hasData ? "colour" : "", asked, true, false));
+    setLevel(parts.back().header, static_cast<float>(options.dwa_level));
+    if (hasData) parts.push_back(maker.make("data", Imf::ZIP_COMPRESSION, false, true));
   }
 
   MemoryStream stream(name);
-  {
-    Imf::OutputFile file(stream, header);
-    file.setFrameBuffer(frame);
-    file.writePixels(image.height);
-  }
+  writeParts(stream, parts, image.height);
   return stream.bytes();
 }
 
@@ -113,7 +207,7 @@ std::vector<char> encode(const std::string& name, const ChannelImage& image) {
 }
 
 void readAttributes(const Imf::Header& header, ChannelImage& image) {
-  static constexpr std::array<std::string_view, 12> structural{"channels",
+  static constexpr std::array<std::string_view, 13> structural{"channels",
                                                                "compression",
                                                                "dataWindow",
                                                                "displayWindow",
@@ -124,7 +218,8 @@ void readAttributes(const Imf::Header& header, ChannelImage& image) {
                                                                "tiles",
                                                                "type",
                                                                "name",
-                                                               "chunkCount"};
+                                                               "chunkCount",
+                                                               "dwaCompressionLevel"};
   for (auto it = header.begin(); it != header.end(); ++it) {
     const std::string name = it.name();
     if (std::find(structural.begin(), structural.end(), name) != structural.end()) continue;
@@ -146,44 +241,65 @@ void readAttributes(const Imf::Header& header, ChannelImage& image) {
   }
 }
 
-ChannelImage decode(const std::filesystem::path& path) {
-  Imf::InputFile file(path.string().c_str());
-  const Imf::Header& header = file.header();
-  if (!file.isComplete()) refuse(path, "a file without all of its scan lines");
+Imath::Box2i windowOf(const std::filesystem::path& path, const Imf::Header& header) {
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = static_cast<std::int64_t>(window.max.x) - window.min.x + 1;
   const std::int64_t height = static_cast<std::int64_t>(window.max.y) - window.min.y + 1;
   constexpr std::int64_t largestSide = 1 << 16;
   if (width < 1 || height < 1 || width > largestSide || height > largestSide)
     refuse(path, fmt::format("a picture of {} x {} pixels", width, height));
+  return window;
+}
 
-  ChannelImage image;
-  image.width = static_cast<int>(width);
-  image.height = static_cast<int>(height);
-  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+/// Appends the channels of one part to those of the parts before it.
+void readPart(const std::filesystem::path& path, Imf::MultiPartInputFile& file, int number, ChannelImage& image) {
+  if (!file.partComplete(number)) refuse(path, "a file without all of its scan lines");
+  Imf::InputPart part(file, number);
+  const Imath::Box2i window = windowOf(path, part.header());
+  const std::size_t present = image.channels.size();
+  for (auto it = part.header().channels().begin(); it != part.header().channels().end(); ++it) {
     if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
       refuse(path, fmt::format("the subsampled channel \"{}\"", it.name()));
+    if (image.find(it.name())) refuse(path, fmt::format("the channel \"{}\" in two parts", it.name()));
     image.add(it.name(), it.channel().type == Imf::HALF ? ChannelType::half : ChannelType::float32);
   }
   Imf::FrameBuffer frame;
-  for (ChannelImage::Channel& channel : image.channels)
-    frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.data.data(), window, sizeof(float),
-                                                sizeof(float) * static_cast<std::size_t>(width)));
-  file.setFrameBuffer(frame);
-  file.readPixels(window.min.y, window.max.y);
-  readAttributes(header, image);
+  for (std::size_t i = present; i < image.channels.size(); ++i)
+    frame.insert(image.channels[i].name,
+                 Imf::Slice::Make(Imf::FLOAT, image.channels[i].data.data(), window, sizeof(float),
+                                  sizeof(float) * static_cast<std::size_t>(image.width)));
+  part.setFrameBuffer(frame);
+  part.readPixels(window.min.y, window.max.y);
+}
+
+ChannelImage decode(const std::filesystem::path& path) {
+  matchThreads();
+  Imf::MultiPartInputFile file(path.string().c_str());
+  const Imath::Box2i window = windowOf(path, file.header(0));
+  ChannelImage image;
+  image.width = window.max.x - window.min.x + 1;
+  image.height = window.max.y - window.min.y + 1;
+  for (int i = 0; i < file.parts(); ++i) {
+    if (windowOf(path, file.header(i)) != window) refuse(path, "parts of different sizes");
+    readPart(path, file, i, image);
+  }
+  readAttributes(file.header(0), image);
   return image;
 }
 
 }  // namespace
 
-void writeExr(const std::filesystem::path& path, const ChannelImage& image) {
+bool isLossy(const OutputOptions& options) { return isLossy(compressionOf(options)); }
+
+float storedValue(float value, ChannelType type) { return type == ChannelType::half ? float(toHalf(value)) : value; }
+
+void writeExr(const std::filesystem::path& path, const ChannelImage& image, const OutputOptions& options) {
   if (image.width < 1 || image.height < 1)
     throw BugError(fmt::format("writeExr: {}: got a picture of {} x {} pixels", path.string(), image.width,
                                image.height));
   std::vector<char> bytes;
   try {
-    bytes = encode(path.filename().string(), image);
+    bytes = encode(path.filename().string(), image, options);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {

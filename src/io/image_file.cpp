@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "io/srgb.h"
 
 namespace ebru {
 namespace {
@@ -18,14 +18,6 @@ namespace {
                          const std::string& expected, const std::string& next) {
   throw InputError(fmt::format("{}: cannot be read as an image: got {}, expected {}; {}", path.string(), got,
                                expected, next));
-}
-
-float linearFromSrgb(float value) {
-  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
-float srgbFromLinear(float value) {
-  return value <= 0.0031308f ? value * 12.92f : 1.055f * std::pow(value, 1.0f / 2.4f) - 0.055f;
 }
 
 bool isInteger(OIIO::TypeDesc format) {
@@ -45,25 +37,19 @@ void checkFinite(const std::filesystem::path& path, const LoadedImage& image) {
   }
 }
 
-std::vector<unsigned char> encodePng(const std::filesystem::path& path, const ChannelImage& image) {
-  std::array<const ChannelImage::Channel*, 3> planes{image.find("R"), image.find("G"), image.find("B")};
-  for (const ChannelImage::Channel* plane : planes)
-    if (!plane) throw BugError(path.string() + ": preview of a picture without channels R G B");
-  std::vector<unsigned char> pixels(3 * planes[0]->data.size());
-  for (std::size_t i = 0; i < planes[0]->data.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float value = planes[c]->data[i];
-      const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
-      pixels[3 * i + c] = static_cast<unsigned char>(255.0f * srgbFromLinear(clamped) + 0.5f);
-    }
-
+std::vector<unsigned char> encodePng(const std::filesystem::path& path, const DisplayImage& image,
+                                     const std::string& description) {
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const std::string name = path.filename().string() + ".png";
   const auto output = OIIO::ImageOutput::create("png", &memory);
-  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  if (!output || !output->open(name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) ||
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  // A quarter of the time of the usual level 6, for files a tenth larger.
+  spec.attribute("png:compressionLevel", 3);
+  if (!description.empty()) spec.attribute("ImageDescription", description);
+  if (!output || !output->open(name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, image.data.data()) ||
       !output->close())
     throw OutputError(fmt::format("{}: cannot be encoded as PNG: got \"{}\"", path.string(),
                                   output ? output->geterror() : OIIO::geterror()));
@@ -108,9 +94,22 @@ LoadedImage readImage(const std::filesystem::path& path, bool toLinear) {
   return image;
 }
 
-void writePreviewPng(const std::filesystem::path& path, const ChannelImage& image) {
-  const std::vector<unsigned char> bytes = encodePng(path, image);
+void writePng(const std::filesystem::path& path, const DisplayImage& image, const std::string& description) {
+  const std::size_t values = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                             static_cast<std::size_t>(image.channels);
+  if (image.data.size() != values)
+    throw BugError(fmt::format("writePng: {}: got {} values, expected {}", path.string(), image.data.size(), values));
+  const std::vector<unsigned char> bytes = encodePng(path, image, description);
   writeTextAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::string pngDescription(const std::filesystem::path& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return {};
+  const auto input = OIIO::ImageInput::open(path.string());
+  if (input) return input->spec().get_string_attribute("ImageDescription");
+  OIIO::geterror();
+  return {};
 }
 
 }  // namespace ebru

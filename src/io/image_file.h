@@ -1,9 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
-
-#include "io/channel_image.h"
 
 namespace ebru {
 
@@ -22,8 +21,19 @@ struct LoadedImage {
 /// @throw InputError if it is missing, not an image, of zero size or has values that are not finite
 LoadedImage readImage(const std::filesystem::path& path, bool toLinear);
 
-/// 8-bit sRGB PNG of the channels R G B of `image`, which are premultiplied: what is seen over black.
-/// Atomically; same image, same bytes. @throw OutputError; BugError without R G B
-void writePreviewPng(const std::filesystem::path& path, const ChannelImage& image);
+/// 8-bit pixels as a display shows them.
+struct DisplayImage {
+  int width = 0, height = 0;
+  int channels = 3;                 ///< 4: with alpha, which colour is not multiplied by
+  std::vector<unsigned char> data;  ///< width * height * channels, interleaved, row 0 at the top
+};
+
+/// A PNG, atomically; same image and description, same bytes.
+/// @param description  stored in it for pngDescription
+/// @throw OutputError; BugError if the data does not fit the size
+void writePng(const std::filesystem::path& path, const DisplayImage& image, const std::string& description = {});
+
+/// The text writePng was given; empty without one and if the file cannot be opened as PNG.
+std::string pngDescription(const std::filesystem::path& path);
 
 }  // namespace ebru

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
 #include "core/random.h"
+#include "io/view_transform.h"
 #include "shot/option_binding.h"
 #include "shot/shot.h"
 #include "shot/shot_tables.h"
@@ -14,9 +16,8 @@
 namespace ebru {
 namespace {
 
-/// Keys of [shot] that decide no pixel: the file's name and where the sequence ends.
-bool decidesNothing(const std::string& table, const std::string& key) {
-  return table == "shot" && (key == "name" || key == "last_frame");
+bool decidesNothing(const ShotTable& table, const std::string& key) {
+  return std::find(table.undecided.begin(), table.undecided.end(), key) != table.undecided.end();
 }
 
 /// A path as seen from the shot file, so that a shot may be moved or mounted elsewhere, and what the file holds.
@@ -46,7 +47,7 @@ std::string fingerprintOf(const Shot& constShot, bool statesOnly) {
     for (std::size_t i = 0; i < table.size(shot); ++i) {
       fingerprint.add(fmt::format("[{}.{}]", table.name, i));
       for (const OptionField& field : table.fields(shot, i)) {
-        if (decidesNothing(table.name, field.key)) continue;
+        if (decidesNothing(table, field.key)) continue;
         fingerprint.add(field.key);
         const std::filesystem::path folder = shot.file.parent_path();
         const auto* path = std::get_if<std::string*>(&field.target);
@@ -91,5 +92,15 @@ std::string Fingerprint::text() const { return fmt::format("{:016x}", mixBits(ha
 
 std::string stateFingerprint(const Shot& shot) { return fingerprintOf(shot, true); }
 std::string pictureFingerprint(const Shot& shot) { return fingerprintOf(shot, false); }
+
+std::string previewFingerprint(const Shot& shot) {
+  OutputOptions output = shot.output;
+  Fingerprint fingerprint;
+  fingerprint.add(programVersion());
+  for (const OptionField& field : fields(output))
+    if (!field.path) fingerprint.add(field.key).add(printOption(field.target));
+  if (const std::filesystem::path config = ocioConfigInUse(output); !config.empty()) fingerprint.addContent(config);
+  return fingerprint.text();
+}
 
 }  // namespace ebru

@@ -62,13 +62,16 @@ bool writeAll(int descriptor, const std::string& bytes) {
 
 /// @return empty on success
 std::string encode(const std::filesystem::path& target, const std::vector<std::filesystem::path>& pictures,
-                   double framesPerSecond, const std::string& codec) {
+                   double framesPerSecond, bool transparent, const std::string& codec) {
+  // Odd sizes are padded: 4:2:0 wants even ones.
+  const std::string filter =
+      std::string(transparent ? "format=gbrap,premultiply=inplace=1," : "") + "pad=ceil(iw/2)*2:ceil(ih/2)*2";
   int input = -1;
   std::string reason;
-  // Through a pipe, since ffmpeg would read patterns into file names. Odd sizes are padded: 4:2:0 wants even ones.
+  // Through a pipe, since ffmpeg would read patterns into file names.
   const pid_t pid = spawnWithInput(
       {"ffmpeg", "-y", "-loglevel", "error", "-f", "image2pipe", "-framerate", fmt::format("{}", framesPerSecond),
-       "-vcodec", "png", "-i", "-", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", codec, "-pix_fmt", "yuv420p",
+       "-vcodec", "png", "-i", "-", "-vf", filter, "-c:v", codec, "-pix_fmt", "yuv420p",
        codec == "libx264" ? "-crf" : "-q:v", codec == "libx264" ? "16" : "3", "-f", "mp4", target.string()},
       input, reason);
   if (pid < 0) return reason;
@@ -89,15 +92,15 @@ std::string encode(const std::filesystem::path& target, const std::vector<std::f
 }  // namespace
 
 std::string writeMovie(const std::filesystem::path& target, const std::vector<std::filesystem::path>& pictures,
-                       double framesPerSecond) {
+                       double framesPerSecond, bool transparent) {
   // An ffmpeg that ends early would end this process too.
   void (*previous)(int) = signal(SIGPIPE, SIG_IGN);
   std::string reason;
   try {
     writeAtomically(target, [&](const std::filesystem::path& temporary) {
-      reason = encode(temporary, pictures, framesPerSecond, "libx264");
+      reason = encode(temporary, pictures, framesPerSecond, transparent, "libx264");
       if (!reason.empty() && reason != "ffmpeg is not installed")
-        reason = encode(temporary, pictures, framesPerSecond, "mpeg4");
+        reason = encode(temporary, pictures, framesPerSecond, transparent, "mpeg4");
       if (!reason.empty()) throw OutputError(reason);
     });
   } catch (const std::exception& error) {

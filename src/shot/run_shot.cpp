@@ -7,14 +7,13 @@
 #include <optional>
 
 #include "io/exr_file.h"
-#include "io/image_file.h"
 #include "render/renderer.h"
 #include "shot/atlas_export.h"
 #include "shot/fingerprint.h"
 #include "shot/frame_pipeline.h"
 #include "shot/interrupt.h"
-#include "shot/movie.h"
 #include "shot/ply_export.h"
+#include "shot/previews.h"
 
 namespace ebru {
 namespace {
@@ -31,41 +30,6 @@ class Occasionally {
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// A preview of every frame of the run, those included that were there already, and the movie of them.
-class Previews {
- public:
-  explicit Previews(FramePipeline& pipeline) : pipeline_(pipeline) {}
-
-  void write(int frame, const ChannelImage& image) {
-    const PhaseTimer timer(&pipeline_.times(), "write preview");
-    writePreviewPng(pipeline_.files().preview(frame), image);
-  }
-
-  void complete() {
-    std::error_code failed;
-    for (const int frame : pipeline_.frames())
-      if (!std::filesystem::exists(pipeline_.files().preview(frame), failed))
-        write(frame, readExr(pipeline_.files().picture(frame)));
-  }
-
-  /// @return the movie's name, or an empty string without one
-  std::string makeMovie(double framesPerSecond) {
-    std::vector<int> frames = pipeline_.frames();
-    std::sort(frames.begin(), frames.end());
-    std::vector<std::filesystem::path> pictures;
-    for (const int frame : frames) pictures.push_back(pipeline_.files().preview(frame));
-    const PhaseTimer timer(&pipeline_.times(), "write movie");
-    const std::string problem = writeMovie(pipeline_.files().movie(), pictures, framesPerSecond);
-    if (problem.empty()) return pipeline_.files().movie().string();
-    pipeline_.log().warn(fmt::format("{}: no movie: {}; the frames are complete",
-                                     pipeline_.files().movie().string(), problem));
-    return {};
-  }
-
- private:
-  FramePipeline& pipeline_;
 };
 
 /// The surface of every frame of the run, and its atlas if one is asked for: finished together.
@@ -133,7 +97,8 @@ void renderShot(const Shot& shot, const RunOptions& options) {
   const std::vector<int> frames = pipeline.framesToDo(
       [&](int f) { return files.picture(f); },
       [&](int f) { return isFinishedPicture(files.picture(f), pipeline.identity().picture(f)); });
-  Previews previews(pipeline);
+  std::optional<Previews> previews;
+  if (options.preview) previews.emplace(shot, files, pipeline.times());
 
   if (!frames.empty()) {
     const Renderer renderer(shot.scene, static_cast<std::uint64_t>(shot.shot.seed), &pipeline.times());
@@ -144,27 +109,27 @@ void renderShot(const Shot& shot, const RunOptions& options) {
       const auto previous = pipeline.fluid(frame - 1), current = pipeline.fluid(frame),
                  next = pipeline.fluid(frame + 1);
       RenderProgress watch;
-      if (options.preview)
+      if (previews)
         watch = [&, occasionally = Occasionally()](const ChannelImage& unfinished) mutable {
-          if (occasionally.now()) previews.write(frame, unfinished);
+          if (occasionally.now()) previews->writePartial(frame, unfinished);
         };
       ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get()}, watch);
       addShotAttributes(image, shot, pipeline.identity().picture(frame));
       pipeline.log().stage(frame, "writing");
       {
         const PhaseTimer timer(&pipeline.times(), "write picture");
-        writeExr(files.picture(frame), image);
+        writeExr(files.picture(frame), image, shot.output);
       }
-      if (options.preview) previews.write(frame, image);
+      if (previews) previews->write(frame, image);
     });
   }
 
   std::vector<std::string> places = {"pictures  " + files.picturePattern().string()};
-  if (options.preview && !pipeline.frames().empty()) {
-    previews.complete();
+  if (previews && !pipeline.frames().empty()) {
+    previews->complete(pipeline.frames(), [&](int f) { return pipeline.identity().picture(f); });
     places.push_back("previews  " + files.previewPattern().string());
     // Every chunk would write the same movie, with its own frames only.
-    const std::string movie = options.chunks == 1 ? previews.makeMovie(shot.shot.fps) : "";
+    const std::string movie = options.chunks == 1 ? previews->makeMovie(pipeline.frames(), pipeline.log()) : "";
     if (!movie.empty()) places.push_back("movie     " + movie);
   }
   pipeline.summarise(frames.size(), frames.size() == 1 ? "frame" : "frames", places);

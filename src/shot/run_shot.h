@@ -28,6 +28,11 @@ struct RunOptions {
 /// @throw UsageError, InputError, OutputError; Interrupted after SIGINT or SIGTERM. Files on disk are whole in every case.
 void renderShot(const Shot& shot, const RunOptions& options);
 
+/// Previews and the movie of finished pictures, made again as [output] now says; needs neither cache nor exemplar. Without
+/// frames asked for, of those of the shot that are there. The view may differ from the one they were rendered with.
+/// @throw UsageError; InputError if a picture asked for is missing or damaged; OutputError; Interrupted
+void previewShot(const Shot& shot, const RunOptions& options);
+
 /// The states alone, all of them kept. Throws as renderShot.
 void synthesiseShot(const Shot& shot, const RunOptions& options);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fluid/fluid_options.h"
+#include "io/output_options.h"
 #include "render/render_options.h"
 #include "texturing/texture_options.h"
 
@@ -28,6 +29,7 @@ struct Shot {
   FluidOptions fluid;
   TextureOptions texture;
   SceneOptions scene;
+  OutputOptions output;
 };
 
 /// @param overrides  "table.key=value" as after --set, applied over the file
@@ -43,5 +45,7 @@ FluidOptions readFluid(const std::string& path, const std::vector<std::string>& 
 std::string stateFingerprint(const Shot& shot);
 /// ... and of everything that decides the pixels.
 std::string pictureFingerprint(const Shot& shot);
+/// Hash of everything that decides how previews show pictures, and no bit of the pictures.
+std::string previewFingerprint(const Shot& shot);
 
 }  // namespace ebru

@@ -4,11 +4,13 @@ namespace ebru {
 namespace {
 
 template <class Options>
-ShotTable single(std::string name, std::string help, ShotTable::Decides decides, Options& (*options)(Shot&)) {
+ShotTable single(std::string name, std::string help, ShotTable::Decides decides, Options& (*options)(Shot&),
+                 std::vector<std::string> undecided = {}) {
   ShotTable table;
   table.name = std::move(name);
   table.help = std::move(help);
   table.decides = decides;
+  table.undecided = std::move(undecided);
   table.resize = [](Shot&, std::size_t) {};
   table.size = [](const Shot&) { return std::size_t{1}; };
   table.fields = [options](Shot& shot, std::size_t) { return fields(options(shot)); };
@@ -46,7 +48,8 @@ OptionFields fields(ShotOptions& options) {
 const std::vector<ShotTable>& shotTables() {
   using enum ShotTable::Decides;
   static const std::vector<ShotTable> tables = {
-      single<ShotOptions>("shot", "What is rendered.", states, [](Shot& s) -> auto& { return s.shot; }),
+      single<ShotOptions>("shot", "What is rendered.", states, [](Shot& s) -> auto& { return s.shot; },
+                          {"name", "last_frame"}),
       single<FluidOptions>("fluid", "Where the fluid comes from.", states,
                            [](Shot& s) -> auto& { return s.fluid; }),
       single<TextureOptions>("texture", "What it is covered with, and how.", states,
@@ -67,6 +70,10 @@ const std::vector<ShotTable>& shotTables() {
                             [](Shot& s) -> auto& { return s.scene.ground; }),
       array<ObstacleOptions>("obstacle", "Solid things that stand in the fluid; they are drawn, not simulated.",
                              [](Shot& s) -> auto& { return s.scene.obstacles; }),
+      single<OutputOptions>("output", "How pictures are stored, and how previews show them.", pictures,
+                            [](Shot& s) -> auto& { return s.output; },
+                            {"view", "exposure", "transparent", "ocio_config", "ocio_display", "ocio_view",
+                             "ocio_colour_space"}),
   };
   return tables;
 }

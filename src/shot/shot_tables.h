@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/options.h"
 #include "shot/shot.h"
@@ -20,6 +21,7 @@ struct ShotTable {
     pictures,
   };
   Decides decides = Decides::pictures;
+  std::vector<std::string> undecided;  ///< keys of it that decide no bit of states and pictures
   /// Makes the array as long as the file's; does nothing for a single table.
   std::function<void(Shot&, std::size_t)> resize;
   std::function<std::size_t(const Shot&)> size;  ///< 1 for a single table

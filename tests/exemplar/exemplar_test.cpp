@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "io/image_file.h"
+#include "io/preview_writer.h"
 
 namespace ebru {
 namespace {
@@ -187,7 +187,7 @@ class ExemplarFile : public ::testing::Test {
         for (std::size_t c = 0; c < 3; ++c)
           image.channels[c].data[static_cast<std::size_t>(y * width + x)] = linear[static_cast<int>(c)];
       }
-    writePreviewPng(folder_ / name, image);
+    PreviewWriter({.view = "srgb"}).write(folder_ / name, image, "");
     return folder_ / name;
   }
   static Exemplar opened(const ExemplarFiles& files) { return Exemplar(readExemplarMaps(files)); }

@@ -103,29 +103,26 @@ TEST_F(ImageFile, ValuesThatAreNotFiniteAreInputErrors) {
       InputError);
 }
 
-TEST_F(ImageFile, PreviewIsSrgbOverBlack) {
-  ChannelImage image;
-  image.width = 4;
-  image.height = 1;
-  for (const char* name : {"R", "G", "B"}) image.add(name, ChannelType::half);
-  // Linear 0.2140 is sRGB one half; beyond [0, 1] and NaN are clamped.
-  image.channels[0].data = {0.2140411f, 7.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()};
-  writePreviewPng(folder_ / "p.png", image);
+TEST_F(ImageFile, PngHoldsBytesAndDescription) {
+  const DisplayImage image{2, 2, 4, {0, 1, 2, 3, 4, 5, 6, 0, 255, 254, 253, 128, 7, 8, 9, 255}};
+  writePng(folder_ / "p.png", image, "a mark");
   const LoadedImage read = readImage(folder_ / "p.png", false);
-  ASSERT_EQ(read.channels, 3);
-  EXPECT_NEAR(read.data[0], 0.5f, 1.0f / 255.0f);
-  EXPECT_EQ(read.data[1], 0.0f);
-  EXPECT_EQ(read.data[3], 1.0f);
-  EXPECT_EQ(read.data[6], 0.0f);
-  EXPECT_EQ(read.data[9], 0.0f);
+  ASSERT_EQ(read.channels, 4);
+  EXPECT_EQ(read.alphaChannel, 3);
+  for (std::size_t i = 0; i < image.data.size(); ++i)
+    EXPECT_NEAR(read.data[i], static_cast<float>(image.data[i]) / 255.0f, 1e-6f) << i;
+  EXPECT_EQ(pngDescription(folder_ / "p.png"), "a mark");
+  writePng(folder_ / "p.png", image);
+  EXPECT_EQ(pngDescription(folder_ / "p.png"), "");
+  EXPECT_EQ(pngDescription(folder_ / "none.png"), "");
+  std::ofstream(folder_ / "text.png") << "only words";
+  EXPECT_EQ(pngDescription(folder_ / "text.png"), "");
 }
 
-TEST_F(ImageFile, PreviewToAnUnwritablePathIsAnOutputError) {
-  ChannelImage image;
-  image.width = image.height = 1;
-  for (const char* name : {"R", "G", "B"}) image.add(name, ChannelType::half);
+TEST_F(ImageFile, PngToAnUnwritablePathIsAnOutputError) {
   std::ofstream(folder_ / "file") << "in the way";
-  EXPECT_THROW(writePreviewPng(folder_ / "file" / "p.png", image), OutputError);
+  EXPECT_THROW(writePng(folder_ / "file" / "p.png", {1, 1, 3, {0, 0, 0}}), OutputError);
+  EXPECT_THROW(writePng(folder_ / "p.png", {1, 1, 3, {0, 0}}), BugError);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 #include "fluid/analytic_frame.h"
 #include "folder.h"
-#include "io/image_file.h"
+#include "io/preview_writer.h"
 #include "surface/mesh_measures.h"
 #include "surface/orientation_field.h"
 #include "surface/poisson_sampling.h"
@@ -59,7 +59,7 @@ inline std::filesystem::path writeExemplar(const std::filesystem::path& path, in
       for (int c = 0; c < 3; ++c)
         image.channels[static_cast<std::size_t>(c)].data[static_cast<std::size_t>(y * size + x)] = linear[c];
     }
-  writePreviewPng(path, image);
+  PreviewWriter({.view = "srgb"}).write(path, image, "");
   return path;
 }
 
