@@ -9,9 +9,10 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "render/film/aovs.h"
-#include "render/camera/camera.h"
+#include "render/camera/exposure.h"
 #include "render/integrators/path_integrator.h"
 #include "render/camera/motion_vectors.h"
+#include "render/geometry/fluid_motion.h"
 #include "render/geometry/shapes.h"
 
 namespace ebru {
@@ -27,7 +28,7 @@ TriangleMesh makeObstacle(const ObstacleOptions& options) {
 
 /// Everything one picture is computed from; lives while it is traced.
 struct Shading {
-  const Camera& camera;
+  const Exposure& exposure;
   const FluidFrame& fluid;
   const Scene& scene;
   const Materials& materials;
@@ -49,7 +50,7 @@ float shadeBeauty(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer
   for (int i = 0; i < s.spp; ++i) {
     sampler.start(static_cast<std::uint32_t>(i));
     const Vec2d raster = Vec2d(x + 0.5, y + 0.5) + s.filter.offset(sampler.next());
-    CameraRay ray = s.camera.rayThrough(raster);
+    CameraRay ray = s.exposure.litRay(raster, sampler);
     ray.widthWorld *= footprintScale;
     ray.widthPerMetre *= footprintScale;
     const RaySample sample = s.integrator.trace(ray, sampler);
@@ -72,8 +73,6 @@ void shadeFluidData(const Shading& s, const SurfaceHit& hit, const TextureSample
   Vec3f velocity = Vec3f::Zero();
   if (s.fluid.velocity) s.fluid.velocity->sample(hit.onTexture.position, velocity);
   buffer.set(Aov::velocityX, pixel, velocity);
-  buffer.set(Aov::forwardU, pixel, s.motion.forward(hit.position));
-  buffer.set(Aov::backwardU, pixel, s.motion.backward(hit.position));
   buffer.set(Aov::textureMask, pixel, 1.0f);
   buffer.set(Aov::textureS, pixel, texture.valid ? texture.st : Vec2f(-1.0f, -1.0f));
   if (!texture.valid) return;
@@ -82,21 +81,26 @@ void shadeFluidData(const Shading& s, const SurfaceHit& hit, const TextureSample
   buffer.set(Aov::textureId, pixel, texture.id);
 }
 
-/// The data channels of one pixel, from the ray through its centre.
+/// The data channels of one pixel, from the ray through its centre in the middle of the exposure.
 void shadeData(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer& buffer) {
-  const CameraRay ray = s.camera.rayThrough(Vec2d(x + 0.5, y + 0.5));
+  const CameraRay ray = s.exposure.dataRay(Vec2d(x + 0.5, y + 0.5));
   SurfaceHit hit;
   if (!s.scene.intersect(ray.ray, hit)) return;
   const Appearance appearance = s.materials.at(hit, ray.ray.direction, ray.widthAt(hit.distanceWorld));
   buffer.set(Aov::albedoR, pixel, appearance.material.albedo);
-  buffer.set(Aov::depth, pixel, static_cast<float>(s.camera.depth(hit.position)));
+  buffer.set(Aov::depth, pixel, static_cast<float>(s.exposure.camera().depth(hit.position)));
   buffer.set(Aov::positionX, pixel, hit.position);
   buffer.set(Aov::normalX, pixel, hit.normal);
-  if (hit.kind == SurfaceKind::fluid) shadeFluidData(s, hit, appearance.texture, pixel, buffer);
+  const bool fluid = hit.kind == SurfaceKind::fluid;
+  buffer.set(Aov::forwardU, pixel,
+             fluid ? s.motion.forward(hit.position) : s.motion.forwardAtRest(hit.position));
+  buffer.set(Aov::backwardU, pixel,
+             fluid ? s.motion.backward(hit.position) : s.motion.backwardAtRest(hit.position));
+  if (fluid) shadeFluidData(s, hit, appearance.texture, pixel, buffer);
 }
 
 void shadeTiles(const Shading& s, FrameBuffer& buffer) {
-  const int width = s.camera.width(), height = s.camera.height();
+  const int width = s.exposure.camera().width(), height = s.exposure.camera().height();
   const int across = (width + tileSize - 1) / tileSize, down = (height + tileSize - 1) / tileSize;
   parallelFor(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), 1, [&](std::size_t tile) {
     const int left = static_cast<int>(tile % static_cast<std::size_t>(across)) * tileSize;
@@ -117,17 +121,17 @@ struct Renderer::Impl {
   SceneOptions options;
   std::uint64_t seed;
   PhaseTimes* times;
-  Camera camera;
+  CameraPath path;
   Lights lights;
   PixelFilter filter;
   std::vector<TriangleMesh> obstacles;
 
   Impl(const SceneOptions& o, std::uint64_t s, PhaseTimes* t)
-      : options(o), seed(s), times(t), camera(o.camera), lights(o.lights), filter(o.render.filter_width_px) {
+      : options(o), seed(s), times(t), path(o.camera), lights(o.lights), filter(o.render.filter_width_px) {
     for (const ObstacleOptions& obstacle : o.obstacles) obstacles.push_back(makeObstacle(obstacle));
   }
 
-  void addAttributes(const FluidFrame& fluid, ChannelImage& image) const {
+  void addAttributes(const FluidFrame& fluid, const Camera& camera, ChannelImage& image) const {
     image.attributes = {{"worldToCamera", camera.worldToCamera()},
                         {"worldToNDC", camera.worldToNdc()},
                         {"framesPerSecond", rationalFramesPerSecond(fluid.framesPerSecond)},
@@ -146,6 +150,11 @@ ChannelImage Renderer::render(const RenderInput& input) const {
   const FluidFrame& fluid = *input.current;
   FluidGeometry geometry;
   geometry.mesh = &fluid.mesh;
+  const Exposure exposure(impl_->path, impl_->options.camera.shutter, fluid.frame);
+  if (exposure.movesFluid()) {
+    const PhaseTimer timer(impl_->times, "render: motion");
+    addShutterMotion(input.previous, fluid, input.next, exposure.open(), exposure.close(), geometry);
+  }
   std::unique_ptr<Scene> scene;
   {
     const PhaseTimer timer(impl_->times, "render: hierarchy");
@@ -156,15 +165,15 @@ ChannelImage Renderer::render(const RenderInput& input) const {
   const PathIntegrator integrator({*scene, materials, impl_->lights},
                                   {impl_->options.render.max_bounces,
                                    static_cast<float>(impl_->options.render.clamp), impl_->options.render.background});
-  const MotionVectors motion(impl_->camera, input.previous, fluid, input.next);
-  FrameBuffer buffer(impl_->camera.width(), impl_->camera.height());
+  const MotionVectors motion(impl_->path, exposure.middle(), input.previous, fluid, input.next);
+  FrameBuffer buffer(exposure.camera().width(), exposure.camera().height());
   const RenderOptions& options = impl_->options.render;
   const auto noiseFrame = options.animate_seed ? static_cast<std::uint64_t>(fluid.frame) : 0;
-  shadeTiles({impl_->camera, fluid, *scene, materials, integrator, motion, impl_->filter, impl_->seed, noiseFrame,
+  shadeTiles({exposure, fluid, *scene, materials, integrator, motion, impl_->filter, impl_->seed, noiseFrame,
               options.spp},
              buffer);
   ChannelImage image = buffer.take();
-  impl_->addAttributes(fluid, image);
+  impl_->addAttributes(fluid, exposure.camera(), image);
   return image;
 }
 
