@@ -5,16 +5,18 @@ import numpy as np
 from evaluation import masks, sampling
 
 
-def _projected(frame, points):
-    """@return H x W x 2: column and row"""
-    return frame.project(points)[..., :2]
+def _moved(frame, p, after, arrived):
+    """@param after  the frame whose camera sees the points when they have arrived
+    @return H x W x 2: columns and rows from where `frame` sees p to where `after` sees `arrived`"""
+    return after.project(arrived)[..., :2] - frame.project(p)[..., :2]
 
 
-def check(frame, fps):
-    """forward against project(P + velocity / fps) - project(P).  @return {id: value}, pixels"""
+def check(frame, fps, after=None):
+    """forward against project(P + velocity / fps) - project(P).
+    @param after  the next frame, for its camera; without it the camera rests  @return {id: value}, pixels"""
     where = masks.require_any(frame.fluid, "fluid")
     p, v = frame.vector("P"), frame.vector("velocity")
-    wanted = _projected(frame, p + v / fps) - _projected(frame, p)
+    wanted = _moved(frame, p, after or frame, p + v / fps)
     difference = np.linalg.norm(frame.motion("forward") - wanted, axis=-1)[where]
     return {"motion_check_median": float(np.median(difference)), "motion_check_p99": float(np.percentile(difference, 99))}
 
@@ -25,7 +27,7 @@ def check_second_order(frame, following, matched, fps):
     where = masks.require_any(matched, "matched")
     p, v = frame.vector("P"), frame.vector("velocity")
     arriving = sampling.bilinear(np.nan_to_num(following.vector("velocity")), masks.landing(frame))
-    wanted = _projected(frame, p + 0.5 * (v + arriving) / fps) - _projected(frame, p)
+    wanted = _moved(frame, p, following, p + 0.5 * (v + arriving) / fps)
     difference = np.linalg.norm(frame.motion("forward") - wanted, axis=-1)[where]
     return {"motion_second_order_median": float(np.median(difference)),
             "motion_second_order_p99": float(np.percentile(difference, 99))}
@@ -50,13 +52,13 @@ def exact_position(p, fluid):
     return None
 
 
-def check_exact(frame, fluid):
-    """forward against the exact path.  @return {id: value}, pixels; empty where there is no closed form"""
+def check_exact(frame, fluid, after=None):
+    """forward against the exact path; `after` as in check.  @return {id: value}, pixels; empty where there is no closed form"""
     p = frame.vector("P").astype(float)
     arrived = exact_position(p, fluid)
     if arrived is None:
         return {}
     where = masks.require_any(frame.fluid, "fluid")
-    wanted = _projected(frame, arrived) - _projected(frame, p)
+    wanted = _moved(frame, p, after or frame, arrived)
     difference = np.linalg.norm(frame.motion("forward") - wanted, axis=-1)[where]
     return {"motion_exact_median": float(np.median(difference)), "motion_exact_p99": float(np.percentile(difference, 99))}

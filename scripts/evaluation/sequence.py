@@ -126,6 +126,17 @@ def _begin(run):
     np.seterr(over="ignore", invalid="ignore")  # pixels that are not finite are counted and left out
 
 
+def _after(number):
+    """@return the frame with the camera that sees what frame `number` shows one frame later"""
+    frame = _read(number)
+    if number + 1 in _run.paths:
+        return _read(number + 1)
+    before = _read(number - 1) if number - 1 in _run.paths else frame
+    if before.attributes.get("worldToNDC") != frame.attributes.get("worldToNDC"):
+        raise NotComputed("the camera moves, and there is no next frame to say where it is then")
+    return frame
+
+
 def _measure(number):
     """@return figures of one frame and of the pair it begins, reasons, and pictures for the report"""
     settings, frame, figures = _run.settings, _read(number), _Figures()
@@ -137,8 +148,8 @@ def _measure(number):
                 lambda: likeness.distortion(frame, _exemplar(settings), _texel_size(frame, settings)))
     figures.add(["energy", "energy_floor", "energy_ratio", "cover"], lambda: _window_figures(frame, settings))
     figures.add(["spectrum_db"], lambda: _spectrum(frame, settings))
-    figures.add(["motion_check_median", "motion_check_p99"], lambda: motion.check(frame, _fps(frame, settings)))
-    figures.add(["motion_exact_median", "motion_exact_p99"], lambda: motion.check_exact(frame, settings.fluid))
+    figures.add(["motion_check_median", "motion_check_p99"], lambda: motion.check(frame, _fps(frame, settings), _after(number)))
+    figures.add(["motion_exact_median", "motion_exact_p99"], lambda: motion.check_exact(frame, settings.fluid, _after(number)))
     estimated = difference = None
     if number + 1 in _run.paths:
         estimated, difference = _measure_pair(frame, _read(number + 1), figures)

@@ -106,18 +106,18 @@ void Flow::carryAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes, float prob
   pWorld = place;
 }
 
-Vec3f Flow::carry(const Vec3f& pWorld, float startTime, float direction) const {
+Vec3f Flow::carry(const Vec3f& pWorld, float start, float span) const {
   Vec3f k1 = Vec3f::Zero(), kEnd = Vec3f::Zero();
-  if (!velocities(pWorld, startTime, k1, startTime + direction, kEnd)) return pWorld;
+  if (!velocities(pWorld, start, k1, start + span, kEnd)) return pWorld;
   const float dt = static_cast<float>(secondsPerFrame_);
-  const float travelWorld = std::max(k1.norm(), kEnd.norm()) * dt;
+  const float travelWorld = std::max(k1.norm(), kEnd.norm()) * dt * std::abs(span);
   if (!std::isfinite(travelWorld)) return pWorld;
   const int steps = subSteps(travelWorld);
-  const float h = direction / static_cast<float>(steps);  // frames
+  const float h = span / static_cast<float>(steps);  // frames
   const float hSeconds = h * dt;
   Vec3f p = pWorld;
   for (int i = 0; i < steps; ++i) {
-    const float t = startTime + h * static_cast<float>(i);
+    const float t = start + h * static_cast<float>(i);
     if (i > 0) velocity(p, t, k1);
     Vec3f k2 = k1;
     velocity(p + (0.5f * hSeconds) * k1, t + 0.5f * h, k2);

@@ -31,6 +31,9 @@ class Flow {
   void carryAxes(Vec3f& pWorld, Eigen::Matrix<float, 3, 2>& axes, float probeWorld) const;
   /// The same as `forward` from time 1 back to 0.
   Vec3f backward(const Vec3f& pWorld) const;
+  /// The same from time `start` over `span` frames, back in time where it is negative; both ends in [0, 1],
+  /// or anywhere near where the velocity is constant in time.
+  Vec3f carry(const Vec3f& pWorld, float start, float span) const;
 
   double secondsPerFrame() const { return secondsPerFrame_; }
 
@@ -40,7 +43,6 @@ class Flow {
   bool velocities(const Vec3f& pWorld, float time, Vec3f& v, float otherTime, Vec3f& other) const;
   int subSteps(float travelWorld) const;
   bool gradient(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec, Mat3f& gradient) const;
-  Vec3f carry(const Vec3f& pWorld, float startTime, float direction) const;
 
   const FluidFrame* from_;
   const FluidFrame* to_;

@@ -9,8 +9,10 @@
 #include "core/error.h"
 #include "core/floating_point_traps.h"
 #include "core/parallel.h"
+#include "render/camera/exposure.h"
 #include "render/film/aovs.h"
 #include "render/film/data_channels.h"
+#include "render/geometry/fluid_motion.h"
 #include "render/integrators/beauty_pass.h"
 #include "render/geometry/shapes.h"
 
@@ -31,7 +33,7 @@ void writeBeauty(const PixelSamples& samples, std::size_t pixel, bool variance, 
 }
 
 void writePixels(const std::vector<PixelSamples>& samples, const DataScene& data, bool variance, FrameBuffer& buffer) {
-  const auto width = static_cast<std::size_t>(data.camera.width());
+  const auto width = static_cast<std::size_t>(data.exposure.camera().width());
   parallelFor(samples.size(), 256, [&](std::size_t pixel) {
     const FloatingPointTraps trapped(true);
     writeBeauty(samples[pixel], pixel, variance, buffer);
@@ -61,12 +63,12 @@ struct Renderer::Impl {
   SceneOptions options;
   std::uint64_t seed;
   PhaseTimes* times;
-  Camera camera;
+  CameraPath path;
   Lights lights;
   std::vector<TriangleMesh> obstacles;
 
   Impl(const SceneOptions& o, std::uint64_t s, PhaseTimes* t)
-      : options(o), seed(s), times(t), camera(o.camera), lights(o.lights) {
+      : options(o), seed(s), times(t), path(o.camera), lights(o.lights) {
     for (const ObstacleOptions& obstacle : o.obstacles) obstacles.push_back(makeObstacle(obstacle));
   }
 
@@ -80,7 +82,7 @@ struct Renderer::Impl {
     return plan;
   }
 
-  void addAttributes(const FluidFrame& fluid, ChannelImage& image) const {
+  void addAttributes(const FluidFrame& fluid, const Camera& camera, ChannelImage& image) const {
     image.attributes = {{"worldToCamera", camera.worldToCamera()},
                         {"worldToNDC", camera.worldToNdc()},
                         {"framesPerSecond", rationalFramesPerSecond(fluid.framesPerSecond)},
@@ -98,9 +100,14 @@ ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& pr
   if (!input.current) throw BugError("Renderer::render: no current frame");
   const FluidFrame& fluid = *input.current;
   const RenderOptions& options = impl_->options.render;
-  const Camera& camera = impl_->camera;
   FluidGeometry geometry;
   geometry.mesh = &fluid.mesh;
+  const Exposure exposure(impl_->path, impl_->options.camera.shutter, fluid.frame);
+  const Camera& camera = exposure.camera();
+  if (exposure.movesFluid()) {
+    const PhaseTimer timer(impl_->times, "render: motion");
+    addShutterMotion(input.previous, fluid, input.next, exposure.open(), exposure.close(), geometry);
+  }
   std::unique_ptr<Scene> scene;
   {
     const PhaseTimer timer(impl_->times, "render: hierarchy");
@@ -117,14 +124,14 @@ ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& pr
       watch = [&](const std::vector<PixelSamples>& s) {
         progress(unfinishedPicture(s, camera.width(), camera.height()));
       };
-    samples = renderBeauty(camera, integrator, impl_->samplingPlan(fluid), watch, fmt::format("frame {}", fluid.frame));
+    samples = renderBeauty(exposure, integrator, impl_->samplingPlan(fluid), watch, fmt::format("frame {}", fluid.frame));
   }
   const PhaseTimer timer(impl_->times, "render: data channels");
-  const MotionVectors motion(camera, input.previous, fluid, input.next);
+  const MotionVectors motion(impl_->path, exposure.middle(), input.previous, fluid, input.next);
   FrameBuffer buffer(camera.width(), camera.height(), options.variance);
-  writePixels(samples, {camera, fluid, *scene, materials, motion}, options.variance, buffer);
+  writePixels(samples, {exposure, fluid, *scene, materials, motion}, options.variance, buffer);
   ChannelImage image = buffer.take();
-  impl_->addAttributes(fluid, image);
+  impl_->addAttributes(fluid, exposure.camera(), image);
   return image;
 }
 

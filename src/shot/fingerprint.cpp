@@ -20,6 +20,12 @@ bool decidesNothing(const ShotTable& table, const std::string& key) {
   return std::find(table.undecided.begin(), table.undecided.end(), key) != table.undecided.end();
 }
 
+/// Keys of [camera] and its keys that do not decide what is in view.
+bool decidesPictureAlone(const std::string& table, const std::string& key) {
+  return table.starts_with("camera") &&
+         (key == "shutter" || key == "aperture_diameter" || key == "focus_distance");
+}
+
 /// A path as seen from the shot file, so that a shot may be moved or mounted elsewhere, and what the file holds.
 void addPath(Fingerprint& fingerprint, const std::filesystem::path& path, const std::filesystem::path& folder) {
   if (path.empty()) {
@@ -48,6 +54,7 @@ std::string fingerprintOf(const Shot& constShot, bool statesOnly) {
       fingerprint.add(fmt::format("[{}.{}]", table.name, i));
       for (const OptionField& field : table.fields(shot, i)) {
         if (decidesNothing(table, field.key)) continue;
+        if (statesOnly && decidesPictureAlone(table.name, field.key)) continue;
         fingerprint.add(field.key);
         const std::filesystem::path folder = shot.file.parent_path();
         const auto* path = std::get_if<std::string*>(&field.target);

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "render/camera/camera_path.h"
 #include "shot/config_value.h"
 #include "shot/option_binding.h"
 #include "shot/shot.h"
@@ -158,6 +159,20 @@ std::string placeOf(const ConfigValue& config, const Shot& shot, const std::stri
   return found ? found->where : shot.file.string();
 }
 
+/// Whether there is a way for the camera through its keys.
+void checkCamera(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
+  try {
+    CameraPath(shot.scene.camera);
+  } catch (const UsageError& error) {
+    const ConfigValue* keys = config.find("camera.key");
+    const bool ofKeys =
+        keys && !keys->items.empty() && std::string_view(error.what()).starts_with("camera.key");
+    problems.push_back(
+        fmt::format("{}: {}", ofKeys ? keys->items.front().where : placeOf(config, shot, "camera", "shutter"),
+                    error.what()));
+  }
+}
+
 /// What no single field can tell. Only called on shots whose fields are all right.
 void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
   const ShotOptions& s = shot.shot;
@@ -177,6 +192,8 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (camera.position == camera.target)
     problems.push_back(fmt::format("{}: camera.target: got the camera's own position, expected another point",
                                    placeOf(config, shot, "camera", "target")));
+  else
+    checkCamera(config, shot, problems);
 }
 
 void throwProblems(const std::vector<std::string>& problems) {

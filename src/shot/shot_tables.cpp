@@ -29,6 +29,18 @@ ShotTable array(std::string name, std::string help, std::vector<Options>& (*opti
   return table;
 }
 
+/// A key says what [camera] says, which is read before, unless it says otherwise.
+ShotTable cameraKeys() {
+  ShotTable table = array<CameraKeyOptions>(
+      "camera.key",
+      "Where the camera is in one frame each; without keys it rests. Between keys it moves smoothly, before the first and "
+      "after the last it rests. What a key does not say is as in [camera].",
+      [](Shot& s) -> auto& { return s.scene.camera.keys; });
+  table.decides = ShotTable::Decides::view;
+  table.resize = [](Shot& s, std::size_t count) { s.scene.camera.keys.assign(count, keyOf(s.scene.camera)); };
+  return table;
+}
+
 }  // namespace
 
 OptionFields fields(ShotOptions& options) {
@@ -60,6 +72,7 @@ const std::vector<ShotTable>& shotTables() {
                            [](Shot& s) -> auto& { return s.texture.quilt; }),
       single<CameraOptions>("camera", "Where it is seen from.", view,
                             [](Shot& s) -> auto& { return s.scene.camera; }),
+      cameraKeys(),
       single<RenderOptions>("render", "How the picture is taken.", pictures,
                             [](Shot& s) -> auto& { return s.scene.render; }),
       single<MaterialOptions>("material", "What the fluid is made of.", pictures,

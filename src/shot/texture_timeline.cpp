@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "render/camera/camera_path.h"
 #include "render/camera/camera_view.h"
 #include "shot/interrupt.h"
 
@@ -26,8 +27,8 @@ std::shared_ptr<const TextureField> TextureTimeline::seek(int frame) {
 }
 
 std::unique_ptr<TextureMethod> TextureTimeline::makeMethod() const {
-  const auto view = [camera = shot_.scene.camera](const FluidFrame& frame) {
-    return std::make_shared<CameraView>(camera, frame);
+  const auto view = [camera = CameraPath(shot_.scene.camera)](const FluidFrame& frame) {
+    return std::make_shared<CameraView>(camera.at(frame.frame), frame);
   };
   return makeTextureMethod(shot_.texture, static_cast<std::uint64_t>(shot_.shot.seed), times_, view);
 }

@@ -14,11 +14,12 @@ namespace {
 class View {
  public:
   explicit View(const TextureField* texture)
-      : camera_(options().camera),
+      : path_(options().camera),
+        exposure_(path_, {0.0, 0.0}, 12),
         geometry_{&from().mesh},
         scene_(geometry_, {}, {}, "frame 12"),
         materials_(options(), texture),
-        motion_(camera_, &from(), from(), &to()) {
+        motion_(path_, 0.0, &from(), from(), &to()) {
     for (std::size_t i = 0; i < pixelCount(); ++i) rays_.push_back(ray(i).ray);
     SurfaceHit hit;
     for (const Ray& r : rays_)
@@ -33,25 +34,26 @@ class View {
     result.camera.size = {320, 180};
     return result;
   }
-  std::size_t pixelCount() const { return static_cast<std::size_t>(camera_.width() * camera_.height()); }
+  std::size_t pixelCount() const { return static_cast<std::size_t>(exposure_.camera().width() * exposure_.camera().height()); }
   const std::vector<SurfaceHit>& hits() const { return hits_; }
   std::vector<RayMesh> meshes() const { return {{&from().mesh}}; }
   const std::vector<Ray>& rays() const { return rays_; }
 
   void writeAll(FrameBuffer& buffer) const {
-    const DataScene data{camera_, from(), scene_, materials_, motion_};
-    const int width = camera_.width();
+    const DataScene data{exposure_, from(), scene_, materials_, motion_};
+    const int width = exposure_.camera().width();
     for (std::size_t i = 0; i < pixelCount(); ++i)
       writeDataChannels(data, static_cast<int>(i) % width, static_cast<int>(i) / width, i, buffer);
   }
 
  private:
   CameraRay ray(std::size_t i) const {
-    const auto width = static_cast<std::size_t>(camera_.width());
-    return camera_.rayThrough(Vec2d(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5));
+    const auto width = static_cast<std::size_t>(exposure_.camera().width());
+    return exposure_.dataRay(Vec2d(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5));
   }
 
-  Camera camera_;
+  CameraPath path_;
+  Exposure exposure_;
   FluidGeometry geometry_;
   Scene scene_;
   Materials materials_;

@@ -28,7 +28,7 @@ class BallsFromAbove : public testing::Test {
   }
 
   FluidFrame frame_ = balls();
-  CameraView view_{test::topView(160, 80, 1.0).camera, frame_};
+  CameraView view_{Camera(test::topView(160, 80, 1.0).camera), frame_};
 };
 
 TEST_F(BallsFromAbove, IsPlainFromAboveAndHiddenFromBelow) {
@@ -64,7 +64,7 @@ TEST(CameraView, NothingIsSeenBehindTheCameraNorInAnEmptyFrame) {
   CameraOptions camera;
   camera.position = {0.0, 0.0, 2.0};
   camera.up = {0.0, 1.0, 0.0};
-  const CameraView view(camera, test::makeFrame({}));
+  const CameraView view(Camera(camera), test::makeFrame({}));
   EXPECT_EQ(view.visibility(Vec3f::Zero(), Vec3f::UnitZ()), 1.0f);
   EXPECT_EQ(view.visibility(Vec3f(0.0f, 0.0f, 3.0f), -Vec3f::UnitZ()), 0.0f);
 }

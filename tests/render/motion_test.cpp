@@ -81,6 +81,68 @@ TEST(Motion, RigidRotationFollowsTheArc) {
   EXPECT_GT(largest, 10.0);
 }
 
+/// Keys of the camera at frames 6, 7 and 8, of which the mock fluid's is the middle one.
+void addKeys(CameraOptions& camera, const Vec3d& stepWorld) {
+  for (const double away : {-1.0, 0.0, 1.0}) {
+    CameraKeyOptions key = keyOf(camera);
+    key.frame = 7.0 + away;
+    for (std::size_t k = 0; k < 3; ++k) {
+      key.position[k] += away * stepWorld[static_cast<Eigen::Index>(k)];
+      key.target[k] += away * stepWorld[static_cast<Eigen::Index>(k)];
+    }
+    camera.keys.push_back(key);
+  }
+}
+
+// 50 px a metre: a camera that goes 0.06 m to the left per frame moves all that rests by 3 px to the right,
+// fluid, obstacle and ground alike.
+TEST(Motion, ACameraPanIsThatManyPixelsEverywhere) {
+  SceneOptions options = topView(100, 100, 2.0);
+  addKeys(options.camera, Vec3d(-0.06, 0.0, 0.0));
+  options.ground = {.enabled = true, .height = -1.0};
+  options.obstacles = {{.position = {0.6, 0.6, 0.0}, .size = {0.5, 0.5, 0.5}, .material = {}}};
+  const FluidFrame frame = makeFrame(makeSphere(Vec3f::Zero(), 0.4f));
+  const ChannelImage image = renderThree(options, frame);
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) {
+      ASSERT_NEAR(pixel(image, "forward.u", x, y), 3.0f, 1e-6f);
+      ASSERT_NEAR(pixel(image, "backward.u", x, y), -3.0f, 1e-6f);
+      ASSERT_EQ(pixel(image, "forward.v", x, y), 0.0f);
+      ASSERT_EQ(pixel(image, "backward.v", x, y), 0.0f);
+    }
+}
+
+// A camera that sinks by 0.5 m per frame towards ground 5 m below sees what is r px off the middle at r * 5
+// / 4.5 px in the next frame and at r * 5 / 5.5 px in the last one.
+TEST(Motion, ADollyMovesTheGroundAwayFromTheMiddle) {
+  SceneOptions options;
+  options.camera.position = {0.0, 0.0, 5.0};
+  options.camera.up = {0.0, 1.0, 0.0};
+  options.camera.size = {80, 60};
+  options.ground.enabled = true;
+  addKeys(options.camera, Vec3d(0.0, 0.0, -0.5));
+  const ChannelImage image = renderThree(options, makeFrame({}));
+  for (const int x : {0, 25, 39, 79})
+    for (const int y : {0, 30, 59}) {
+      const Vec2d off(x + 0.5 - 40.0, 30.0 - y - 0.5);
+      EXPECT_NEAR(pixel(image, "forward.u", x, y), off.x() * (5.0 / 4.5 - 1.0), 1e-4);
+      EXPECT_NEAR(pixel(image, "forward.v", x, y), off.y() * (5.0 / 4.5 - 1.0), 1e-4);
+      EXPECT_NEAR(pixel(image, "backward.u", x, y), off.x() * (5.0 / 5.5 - 1.0), 1e-4);
+      EXPECT_NEAR(pixel(image, "backward.v", x, y), off.y() * (5.0 / 5.5 - 1.0), 1e-4);
+    }
+}
+
+// Before its first and after its last key the camera rests, and all that rests has exactly zero.
+TEST(Motion, BeyondTheKeysOfACameraIsExactlyStill) {
+  SceneOptions options = topView(20, 20, 2.0);
+  addKeys(options.camera, Vec3d(-0.06, 0.0, 0.0));
+  for (CameraKeyOptions& key : options.camera.keys) key.frame += 10.0;
+  options.ground.enabled = true;
+  const ChannelImage image = renderThree(options, makeFrame(makeSphere(Vec3f::Zero(), 0.4f)));
+  for (const char* channel : {"forward.u", "forward.v", "backward.u", "backward.v"})
+    for (const float value : image.find(channel)->data) ASSERT_EQ(value, 0.0f) << channel;
+}
+
 TEST(Motion, AtTheEndsOfACacheTheVelocityHolds) {
   const FluidFrame frame = makeFrame(makeBox(Vec3f::Zero(), Vec3f::Ones()), Vec3f(0.24f, 0.0f, 0.0f));
   const ChannelImage image =

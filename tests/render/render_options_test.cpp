@@ -37,6 +37,7 @@ void checkTable() {
 
 TEST(RenderOptions, EveryFieldHasHelpAndADefaultInItsRange) {
   checkTable<CameraOptions>();
+  checkTable<CameraKeyOptions>();
   checkTable<RenderOptions>();
   checkTable<LightOptions>();
   checkTable<GroundOptions>();

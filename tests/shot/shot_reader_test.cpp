@@ -237,6 +237,62 @@ TEST_F(ShotReader, StatesDependOnTheCameraOnlyWhereTheTextureKnowsIt) {
   EXPECT_EQ(stateAfter({aware}), stateAfter({aware, moved}));
 }
 
+const std::string keyed = R"([[camera.key]]
+frame = 3
+[[camera.key]]
+frame = 7.5
+position = [2, 2.5, 3]
+focus_distance = 1.5
+)";
+
+// What a key does not say is as in [camera].
+TEST_F(ShotReader, ReadsArraysInTables) {
+  const Shot shot = read(good + keyed, {"camera.key.0.vertical_fov_deg=20", "camera.aperture_diameter=0.01",
+                                        "camera.up=[0, 1, 1]", "camera.shutter=[-0.25, 0.25]"});
+  const CameraOptions& camera = shot.scene.camera;
+  ASSERT_EQ(camera.keys.size(), 2u);
+  EXPECT_EQ(camera.keys[0].frame, 3.0);
+  EXPECT_EQ(camera.keys[0].position, (std::array<double, 3>{1.0, 2.5, 3.0}));
+  EXPECT_EQ(camera.keys[0].vertical_fov_deg, 20.0);
+  EXPECT_EQ(camera.keys[1].frame, 7.5);
+  EXPECT_EQ(camera.keys[1].position, (std::array<double, 3>{2.0, 2.5, 3.0}));
+  EXPECT_EQ(camera.keys[1].up, (std::array<double, 3>{0.0, 1.0, 1.0}));
+  EXPECT_EQ(camera.keys[1].vertical_fov_deg, 35.0);
+  EXPECT_EQ(camera.keys[1].focus_distance, 1.5);
+  EXPECT_EQ(camera.shutter, (std::array<double, 2>{-0.25, 0.25}));
+}
+
+TEST_F(ShotReader, ChecksTheKeysOfTheCamera) {
+  EXPECT_TRUE(
+      says(problemsOf(good + keyed, {"camera.key.1.frame=3"}), "camera.key.1.frame: got 3, expected more"));
+  EXPECT_TRUE(
+      says(problemsOf(good + "[[camera.key]]\nposition = [0, 0, 1]\n"), "camera.key.0.frame is missing"));
+  EXPECT_TRUE(says(problemsOf(good + keyed + "roll = 3\n"), "unknown key camera.key.1.roll"));
+  EXPECT_TRUE(says(problemsOf(good + "[camera.key]\nframe = 3\n"), "expected [[camera.key]]"));
+  EXPECT_TRUE(says(problemsOf(good, {"camera.shutter=[0.5, 0]"}),
+                   "--set camera.shutter=[0.5, 0]: camera.shutter: got"));
+}
+
+TEST_F(ShotReader, FingerprintsFollowTheCamerasMotionAndLens) {
+  const std::string state = stateFingerprint(read(good + keyed)),
+                    picture = pictureFingerprint(read(good + keyed));
+  EXPECT_EQ(state, stateFingerprint(read(good)));
+  EXPECT_NE(picture, pictureFingerprint(read(good)));
+  const std::vector<std::string> quilt = {"texture.method=quilt", "texture.quilt.camera_aware=true"};
+  const std::string aware = stateFingerprint(read(good + keyed, quilt));
+  const auto with = [&](std::vector<std::string> settings, const std::string& one) {
+    settings.push_back(one);
+    return read(good + keyed, settings);
+  };
+  for (const std::string setting : {"camera.shutter=[-0.25, 0.25]", "camera.aperture_diameter=0.01",
+                                    "camera.key.1.focus_distance=2", "camera.key.1.frame=8"}) {
+    EXPECT_EQ(stateFingerprint(with({}, setting)), state) << setting;
+    EXPECT_NE(pictureFingerprint(with({}, setting)), picture) << setting;
+    // What is in view depends on where the camera is, not on its shutter and lens.
+    EXPECT_EQ(stateFingerprint(with(quilt, setting)) == aware, setting != "camera.key.1.frame=8") << setting;
+  }
+}
+
 TEST_F(ShotReader, FingerprintsSeeTheExemplarsContentAndNotItsFolder) {
   const auto write = [&](const std::string& content) { std::ofstream(folder_ / "pebbles.png") << content; };
   write("one");

@@ -7,23 +7,13 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "render/sampling.h"
 
 namespace ebru {
 namespace {
 
 Vec3d vec(const std::array<double, 3>& a) {
   return {a[0], a[1], a[2]};
-}
-
-Mat4d worldToCameraMatrix(const Vec3d& position, const Vec3d& right, const Vec3d& up, const Vec3d& forward) {
-  Mat4d matrix = Mat4d::Identity();
-  matrix.block<3, 1>(0, 0) = right;
-  matrix.block<3, 1>(0, 1) = up;
-  matrix.block<3, 1>(0, 2) = forward;
-  matrix(3, 0) = -position.dot(right);
-  matrix(3, 1) = -position.dot(up);
-  matrix(3, 2) = -position.dot(forward);
-  return matrix;
 }
 
 // Row vectors. Perspective: (x, y, z, 1) -> (x / W + z / 2, z / 2 - y / H, z - near, z), divided by w = z.
@@ -43,32 +33,56 @@ Mat4d cameraToNdcMatrix(bool perspective, double screenWidth, double screenHeigh
 
 }  // namespace
 
-Camera::Camera(const CameraOptions& options)
+CameraPose::CameraPose(const CameraKeyOptions& key)
+    : position(vec(key.position)),
+      target(vec(key.target)),
+      up(vec(key.up)),
+      verticalFovDeg(key.vertical_fov_deg),
+      orthographicHeightWorld(key.orthographic_height),
+      focusDistanceWorld(key.focus_distance) {}
+
+Camera::Camera(const CameraOptions& options) : Camera(options, CameraPose(keyOf(options))) {}
+
+Camera::Camera(const CameraOptions& options, const CameraPose& pose)
     : perspective_(options.projection == "perspective"),
       width_(options.size[0]),
       height_(options.size[1]),
-      position_(vec(options.position)) {
-  const Vec3d view = vec(options.target) - position_;
+      position_(pose.position),
+      apertureDiameterWorld_(options.aperture_diameter) {
+  const Vec3d view = pose.target - position_;
   if (!(view.norm() > 0.0))
     throw UsageError(
         fmt::format("camera.target: got camera.position ({}, {}, {}), expected another point; move one of "
                     "them",
                     position_.x(), position_.y(), position_.z()));
   forward_ = view.normalized();
-  const Vec3d side = forward_.cross(vec(options.up));
-  if (!(side.norm() > 1e-9 * vec(options.up).norm()))
+  const Vec3d side = forward_.cross(pose.up);
+  if (!(side.norm() > 1e-9 * pose.up.norm()))
     throw UsageError(
         fmt::format("camera.up: got ({}, {}, {}), expected a direction that is neither zero nor along the "
                     "view; choose another axis",
-                    options.up[0], options.up[1], options.up[2]));
+                    pose.up.x(), pose.up.y(), pose.up.z()));
   right_ = side.normalized();
   up_ = right_.cross(forward_);
-  const double screenHeight = perspective_
-                                  ? 2.0 * std::tan(0.5 * options.vertical_fov_deg * std::numbers::pi / 180.0)
-                                  : options.orthographic_height;
-  pixelWidth_ = screenHeight / height_;
-  worldToCamera_ = worldToCameraMatrix(position_, right_, up_, forward_);
-  worldToNdc_ = worldToCamera_ * cameraToNdcMatrix(perspective_, pixelWidth_ * width_, screenHeight);
+  screenHeight_ = perspective_ ? 2.0 * std::tan(0.5 * pose.verticalFovDeg * std::numbers::pi / 180.0)
+                               : pose.orthographicHeightWorld;
+  pixelWidth_ = screenHeight_ / height_;
+  focusDistanceWorld_ = pose.focusDistanceWorld > 0.0 ? pose.focusDistanceWorld : view.norm();
+}
+
+Mat4d Camera::worldToCamera() const {
+  Mat4d matrix = Mat4d::Identity();
+  matrix.block<3, 1>(0, 0) = right_;
+  matrix.block<3, 1>(0, 1) = up_;
+  matrix.block<3, 1>(0, 2) = forward_;
+  matrix(3, 0) = -position_.dot(right_);
+  matrix(3, 1) = -position_.dot(up_);
+  matrix(3, 2) = -position_.dot(forward_);
+  return matrix;
+}
+
+Mat4d Camera::worldToNdc() const {
+  return worldToCamera() * cameraToNdcMatrix(perspective_, pixelWidth_ * width_, screenHeight_);
 }
 
 CameraRay Camera::rayThrough(const Vec2d& raster) const {
@@ -86,6 +100,25 @@ CameraRay Camera::rayThrough(const Vec2d& raster) const {
     result.ray.direction = forward_.cast<float>();
     result.widthWorld = static_cast<float>(pixelWidth_);
   }
+  return result;
+}
+
+CameraRay Camera::rayThrough(const Vec2d& raster, const Vec2f& lens) const {
+  const double x = (raster.x() - 0.5 * width_) * pixelWidth_;
+  const double y = (0.5 * height_ - raster.y()) * pixelWidth_;
+  const Vec3d across = x * right_ + y * up_;
+  const Vec2d onLens = 0.5 * apertureDiameterWorld_ * sampleDisc(lens).cast<double>();
+  const Vec3d pinhole = perspective_ ? position_ : Vec3d(position_ + across);
+  const Vec3d sharp = pinhole + focusDistanceWorld_ * (perspective_ ? Vec3d(forward_ + across) : forward_);
+  const Vec3d origin = pinhole + onLens.x() * right_ + onLens.y() * up_;
+  const Vec3d direction = (sharp - origin).normalized();
+  CameraRay result;
+  result.ray.origin = origin.cast<float>();
+  result.ray.direction = direction.cast<float>();
+  if (perspective_)
+    result.widthPerMetre = static_cast<float>(pixelWidth_ * direction.dot(forward_));
+  else
+    result.widthWorld = static_cast<float>(pixelWidth_);
   return result;
 }
 

@@ -11,8 +11,8 @@ constexpr float liftVoxels = 1.0f;
 
 }  // namespace
 
-CameraView::CameraView(const CameraOptions& options, const FluidFrame& frame)
-    : camera_(options), fluid_(std::vector<RayMesh>{{&frame.mesh}}), voxelSizeWorld_(frame.voxelSizeWorld) {}
+CameraView::CameraView(const Camera& camera, const FluidFrame& frame)
+    : camera_(camera), fluid_(std::vector<RayMesh>{{&frame.mesh}}), voxelSizeWorld_(frame.voxelSizeWorld) {}
 
 float CameraView::visibility(const Vec3f& positionWorld, const Vec3f& normal) const {
   Vec2d raster;

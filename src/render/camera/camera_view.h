@@ -10,8 +10,8 @@ namespace ebru {
 /// normal and line of sight down to 0.1 visibility falls from 1 to 0. Ground and obstacles hide nothing. Copies the mesh.
 class CameraView : public View {
  public:
-  /// @throw UsageError as Camera; BugError as EmbreeScene
-  CameraView(const CameraOptions& options, const FluidFrame& frame);
+  /// @throw BugError as EmbreeScene
+  CameraView(const Camera& camera, const FluidFrame& frame);
 
   float visibility(const Vec3f& positionWorld, const Vec3f& normal) const override;
 

@@ -2,14 +2,17 @@
 
 namespace ebru {
 
-MotionVectors::MotionVectors(const Camera& camera, const FluidFrame* previous, const FluidFrame& current,
-                             const FluidFrame* next)
-    : camera_(camera), toNext_(&current, next), fromPrevious_(previous, &current) {}
+MotionVectors::MotionVectors(const CameraPath& path, double middle, const FluidFrame* previous,
+                             const FluidFrame& current, const FluidFrame* next)
+    : middle_(middle),
+      here_(path.at(current.frame + middle)),
+      before_(path.at(current.frame + middle - 1.0)),
+      after_(path.at(current.frame + middle + 1.0)),
+      flow_(previous, current, next) {}
 
-Vec2f MotionVectors::between(const Vec3f& fromWorld, const Vec3f& toWorld) const {
+Vec2f MotionVectors::between(const Vec3f& fromWorld, const Vec3f& toWorld, const Camera& there) const {
   Vec2d from, to;
-  if (!camera_.rasterFromWorld(fromWorld, from) || !camera_.rasterFromWorld(toWorld, to))
-    return Vec2f::Zero();
+  if (!here_.rasterFromWorld(fromWorld, from) || !there.rasterFromWorld(toWorld, to)) return Vec2f::Zero();
   return Vec2d(to.x() - from.x(), from.y() - to.y()).cast<float>();
 }
 

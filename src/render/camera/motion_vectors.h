@@ -1,30 +1,43 @@
 #pragma once
 
-#include "fluid/flow.h"
-#include "render/camera/camera.h"
+#include "fluid/frame_flow.h"
+#include "render/camera/camera_path.h"
 
 namespace ebru {
 
-/// Motion vectors of material points of the fluid as a camera at rest sees them. The points are carried by
-/// the integrator of the texture particles. References are kept; const members are safe to call concurrently.
+/// Motion vectors of the material points that the camera sees in the middle of a frame's exposure: to where
+/// the camera sees them in the middle of the neighbouring frames' exposures. Points of the fluid are carried
+/// by the integrator of the texture particles. References are kept; const members are safe to call
+/// concurrently.
+///
+/// All results are pixels, +x to the right, +y up. They are exactly zero where neither the point nor the
+/// camera moves, and zero where either end is not in front of the camera.
 class MotionVectors {
  public:
+  /// @param middle  of the exposure, frames after `current`
   /// @param previous, next  null at the ends of a cache: the velocity of `current` then holds for that frame
-  MotionVectors(const Camera& camera, const FluidFrame* previous, const FluidFrame& current,
+  /// @throw UsageError as CameraPath::at
+  MotionVectors(const CameraPath& path, double middle, const FluidFrame* previous, const FluidFrame& current,
                 const FluidFrame* next);
 
-  /// Pixels, +x to the right, +y up, from where `pWorld` (a point of frame f) is seen to where it is seen in
-  /// frame f + 1. Exactly zero where the velocity is; zero where either end is not in front of the camera.
-  Vec2f forward(const Vec3f& pWorld) const { return between(pWorld, toNext_.forward(pWorld)); }
-  /// The same to frame f - 1.
-  Vec2f backward(const Vec3f& pWorld) const { return between(pWorld, fromPrevious_.backward(pWorld)); }
+  /// Of a point of the fluid, one frame onwards ...
+  Vec2f forward(const Vec3f& pWorld) const {
+    return between(pWorld, flow_.carry(pWorld, middle_, middle_ + 1.0), after_);
+  }
+  /// ... and one back.
+  Vec2f backward(const Vec3f& pWorld) const {
+    return between(pWorld, flow_.carry(pWorld, middle_, middle_ - 1.0), before_);
+  }
+  /// Of a point at rest in the world: the camera's motion alone.
+  Vec2f forwardAtRest(const Vec3f& pWorld) const { return between(pWorld, pWorld, after_); }
+  Vec2f backwardAtRest(const Vec3f& pWorld) const { return between(pWorld, pWorld, before_); }
 
  private:
-  Vec2f between(const Vec3f& fromWorld, const Vec3f& toWorld) const;
+  Vec2f between(const Vec3f& fromWorld, const Vec3f& toWorld, const Camera& there) const;
 
-  const Camera& camera_;
-  Flow toNext_;
-  Flow fromPrevious_;
+  double middle_;
+  Camera here_, before_, after_;
+  FrameFlow flow_;
 };
 
 }  // namespace ebru

@@ -112,9 +112,11 @@ struct EmbreeScene::Impl {
   void add(const RayMesh& part, unsigned id) const {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (part.atOpen) {
-      rtcSetGeometryTimeStepCount(geometry, 2);
+      const std::vector<Vec3f>& middle = part.atCentre ? *part.atCentre : part.mesh->positions;
+      rtcSetGeometryTimeStepCount(geometry, 3);
       copyBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, *part.atOpen);
-      copyBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 1, RTC_FORMAT_FLOAT3, *part.atClose);
+      copyBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 1, RTC_FORMAT_FLOAT3, middle);
+      copyBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 2, RTC_FORMAT_FLOAT3, *part.atClose);
     } else {
       copyBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part.mesh->positions);
     }

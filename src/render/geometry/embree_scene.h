@@ -12,9 +12,21 @@ namespace ebru {
 /// A mesh that rays can meet; referenced while the scene is built.
 struct RayMesh {
   const TriangleMesh* mesh = nullptr;          ///< null or empty: never hit
-  const std::vector<Vec3f>* atOpen = nullptr;  ///< where its vertices are when the shutter opens ...
-  const std::vector<Vec3f>* atClose = nullptr;  ///< ... and closes, straight lines between; null: it rests
-  bool filtered = false;                        ///< whether the filter is asked about its hits
+  bool filtered = false;                       ///< whether the filter is asked about its hits
+  const std::vector<Vec3f>* atOpen =
+      nullptr;  ///< where its vertices are when the shutter opens; null: it rests
+  /// In the middle of the exposure: null is where the mesh has them. On straight lines between.
+  const std::vector<Vec3f>* atCentre = nullptr;
+  const std::vector<Vec3f>* atClose = nullptr;  ///< when the shutter closes
+
+  /// Where a vertex is at a ray's time; at time 0.5 the bits of `atCentre`.
+  Vec3f vertexAt(std::size_t vertex, float time) const {
+    if (!atOpen) return mesh->positions[vertex];
+    const Vec3f& middle = (atCentre ? *atCentre : mesh->positions)[vertex];
+    const float within = 2.0f * time;
+    if (within < 1.0f) return (1.0f - within) * (*atOpen)[vertex] + within * middle;
+    return (2.0f - within) * middle + (within - 1.0f) * (*atClose)[vertex];
+  }
 };
 
 /// Where a ray meets a mesh.

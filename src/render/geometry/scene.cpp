@@ -41,15 +41,39 @@ struct Corners {
   }
 };
 
+/// Turns normals of a triangle at rest with it to where it has moved: their slopes against its edges stay as
+/// they are.
+/// @param geometric  its unit normal there
+void turnWithTriangle(const std::vector<Vec3f>& rest, const Vec3i& triangle,
+                      const std::array<Vec3f, 3>& moved, const Vec3f& geometric,
+                      std::array<Vec3f, 3>& normals) {
+  const Vec3f &a = rest[static_cast<std::size_t>(triangle[0])],
+              &b = rest[static_cast<std::size_t>(triangle[1])],
+              &c = rest[static_cast<std::size_t>(triangle[2])];
+  if (a == moved[0] && b == moved[1] && c == moved[2]) return;
+  const Vec3f restGeometric = (b - a).cross(c - a).stableNormalized();
+  const Vec3f u = moved[1] - moved[0], v = moved[2] - moved[0];
+  const float area = u.cross(v).dot(geometric);  // twice that
+  if (!(area > 0.0f)) return;
+  // The dual basis of (u, v, geometric).
+  const Vec3f dualU = v.cross(geometric) / area, dualV = geometric.cross(u) / area;
+  for (Vec3f& n : normals)
+    n = ((b - a).dot(n) * dualU + (c - a).dot(n) * dualV + restGeometric.dot(n) * geometric)
+            .stableNormalized();
+}
+
 }  // namespace
 
 Scene::Scene(const FluidGeometry& fluid, const std::vector<TriangleMesh>& obstacles, const GroundOptions& ground,
              const std::string& source, const HitFilter* holes)
     : fluid_(fluid), ground_(ground) {
   checkIndices(*fluid.mesh, source);
-  const bool moves = !fluid.atOpen.empty();
-  meshes_.push_back(
-      {fluid.mesh, moves ? &fluid.atOpen : nullptr, moves ? &fluid.atClose : nullptr, holes != nullptr});
+  meshes_.push_back({fluid.mesh, holes != nullptr});
+  if (!fluid.atOpen.empty()) {
+    meshes_.front().atOpen = &fluid.atOpen;
+    meshes_.front().atCentre = fluid.atCentre.empty() ? nullptr : &fluid.atCentre;
+    meshes_.front().atClose = &fluid.atClose;
+  }
   for (const TriangleMesh& mesh : obstacles) meshes_.push_back({&mesh});
   for (const RayMesh& part : meshes_)
     for (const Vec3f& p : part.mesh->positions) {
@@ -146,9 +170,7 @@ void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hi
   const Vec3i& triangle = mesh.triangles[found.triangle];
   for (int k = 0; k < 3; ++k) {
     const auto v = static_cast<std::size_t>(triangle[k]);
-    corners.positions[static_cast<std::size_t>(k)] =
-        part.atOpen ? Vec3f((1.0f - ray.time) * (*part.atOpen)[v] + ray.time * (*part.atClose)[v])
-                    : mesh.positions[v];
+    corners.positions[static_cast<std::size_t>(k)] = part.vertexAt(v, ray.time);
   }
   corners.weights = {1.0f - found.barycentric.x() - found.barycentric.y(), found.barycentric.x(),
                      found.barycentric.y()};
@@ -162,6 +184,7 @@ void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hi
     std::array<Vec3f, 3> normals;
     for (int k = 0; k < 3; ++k)
       normals[static_cast<std::size_t>(k)] = mesh.normals[static_cast<std::size_t>(triangle[k])];
+    if (part.atOpen) turnWithTriangle(mesh.positions, triangle, corners.positions, geometric, normals);
     const Vec3f smooth = corners.interpolate(normals);
     const float length = smooth.norm();
     if (length > 1e-6f && std::isfinite(length)) {

@@ -35,6 +35,8 @@ struct FluidGeometry {
   const TriangleMesh* mesh = nullptr;  ///< as it is seen at the frame's time
   /// Where the vertices are when the shutter opens and closes; empty: they rest.
   std::vector<Vec3f> atOpen = {}, atClose = {};
+  /// And in the middle between; empty: as in `mesh`.
+  std::vector<Vec3f> atCentre = {};
   /// Where the vertices and their normals are on the frame's own surface; empty: there.
   std::vector<Vec3f> basePositions = {}, baseNormals = {};
   /// Per triangle of `mesh`, the triangle of the frame's mesh it is a part of; empty: itself.

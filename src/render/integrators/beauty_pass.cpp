@@ -18,17 +18,17 @@ constexpr int fewestForError = 16;
 
 class Tiles {
  public:
-  Tiles(const Camera& camera, const PathIntegrator& integrator, const SamplingPlan& plan, const std::string& where)
-      : camera_(camera),
+  Tiles(const Exposure& exposure, const PathIntegrator& integrator, const SamplingPlan& plan, const std::string& where)
+      : exposure_(exposure),
         integrator_(integrator),
         plan_(plan),
         where_(where),
         filter_(plan.filterWidthPx),
         // With more samples each stands for less of the pixel, so its texture may be sharper.
         footprintScale_(std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(plan.spp)))),
-        across_((camera.width() + tileSize - 1) / tileSize),
-        pixels_(static_cast<std::size_t>(camera.width()) * static_cast<std::size_t>(camera.height())) {
-    const int down = (camera.height() + tileSize - 1) / tileSize;
+        across_((exposure.camera().width() + tileSize - 1) / tileSize),
+        pixels_(static_cast<std::size_t>(exposure.camera().width()) * static_cast<std::size_t>(exposure.camera().height())) {
+    const int down = (exposure.camera().height() + tileSize - 1) / tileSize;
     for (int tile = 0; tile < across_ * down; ++tile) active_.push_back(tile);
   }
 
@@ -49,11 +49,11 @@ class Tiles {
   bool sampleTile(int tile, int count) {
     const FloatingPointTraps trapped(true);
     const int left = tile % across_ * tileSize, top = tile / across_ * tileSize;
-    const int right = std::min(left + tileSize, camera_.width()), bottom = std::min(top + tileSize, camera_.height());
+    const int right = std::min(left + tileSize, exposure_.camera().width()), bottom = std::min(top + tileSize, exposure_.camera().height());
     float error = 0.0f;
     for (int y = top; y < bottom; ++y)
       for (int x = left; x < right; ++x) {
-        const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width()) +
+        const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(exposure_.camera().width()) +
                                   static_cast<std::size_t>(x);
         samplePixel(x, y, pixel, count);
         error += pixels_[pixel].displayErrorSquared();
@@ -68,7 +68,7 @@ class Tiles {
     while (pixel.count < count) {
       sampler.start(static_cast<std::uint32_t>(pixel.count));
       const Vec2d raster = Vec2d(x + 0.5, y + 0.5) + filter_.offset(sampler.next());
-      CameraRay ray = camera_.rayThrough(raster);
+      CameraRay ray = exposure_.litRay(raster, sampler);
       ray.widthWorld *= footprintScale_;
       ray.widthPerMetre *= footprintScale_;
       const RaySample sample = integrator_.trace(ray, sampler);
@@ -81,7 +81,7 @@ class Tiles {
     }
   }
 
-  const Camera& camera_;
+  const Exposure& exposure_;
   const PathIntegrator& integrator_;
   const SamplingPlan& plan_;
   const std::string& where_;
@@ -101,9 +101,9 @@ int nextCount(const SamplingPlan& plan, int count, bool watched) {
 
 }  // namespace
 
-std::vector<PixelSamples> renderBeauty(const Camera& camera, const PathIntegrator& integrator, const SamplingPlan& plan,
+std::vector<PixelSamples> renderBeauty(const Exposure& exposure, const PathIntegrator& integrator, const SamplingPlan& plan,
                                        const SampleProgress& progress, const std::string& where) {
-  Tiles tiles(camera, integrator, plan, where);
+  Tiles tiles(exposure, integrator, plan, where);
   for (int count = 0; !tiles.finished();) {
     count = nextCount(plan, count, static_cast<bool>(progress));
     tiles.sampleTo(count);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/camera/camera.h"
+#include "render/camera/exposure.h"
 #include "render/film/pixel_samples.h"
 #include "render/integrators/path_integrator.h"
 
@@ -30,7 +30,7 @@ using SampleProgress = std::function<void(const std::vector<PixelSamples>&)>;
 /// @param where  for messages, "frame 7"
 /// @return width x height pixels, row by row from the top
 /// @throw BugError naming pixel and sample if a radiance is not finite
-std::vector<PixelSamples> renderBeauty(const Camera& camera, const PathIntegrator& integrator, const SamplingPlan& plan,
+std::vector<PixelSamples> renderBeauty(const Exposure& exposure, const PathIntegrator& integrator, const SamplingPlan& plan,
                                        const SampleProgress& progress, const std::string& where);
 
 }  // namespace ebru
