@@ -5,25 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "render/film/aovs.h"
 #include "render/camera/camera.h"
-#include "render/integrators/path_integrator.h"
 #include "render/camera/motion_vectors.h"
-#include "render/geometry/shapes.h"
+#include "render/film/aovs.h"
+#include "render/geometry/alpha_holes.h"
+#include "render/geometry/displacement.h"
+#include "render/geometry/obstacles.h"
+#include "render/integrators/path_integrator.h"
 
 namespace ebru {
 namespace {
 
 constexpr int tileSize = 16;
-
-TriangleMesh makeObstacle(const ObstacleOptions& options) {
-  const Vec3f centre = Vec3d(options.position[0], options.position[1], options.position[2]).cast<float>();
-  if (options.shape == "sphere") return makeSphere(centre, static_cast<float>(options.radius));
-  return makeBox(centre, Vec3d(options.size[0], options.size[1], options.size[2]).cast<float>());
-}
 
 /// Everything one picture is computed from; lives while it is traced.
 struct Shading {
@@ -72,8 +69,8 @@ void shadeFluidData(const Shading& s, const SurfaceHit& hit, const TextureSample
   Vec3f velocity = Vec3f::Zero();
   if (s.fluid.velocity) s.fluid.velocity->sample(hit.onTexture.position, velocity);
   buffer.set(Aov::velocityX, pixel, velocity);
-  buffer.set(Aov::forwardU, pixel, s.motion.forward(hit.position));
-  buffer.set(Aov::backwardU, pixel, s.motion.backward(hit.position));
+  buffer.set(Aov::forwardU, pixel, s.motion.forward(hit.position, hit.onTexture));
+  buffer.set(Aov::backwardU, pixel, s.motion.backward(hit.position, hit.onTexture));
   buffer.set(Aov::textureMask, pixel, 1.0f);
   buffer.set(Aov::textureS, pixel, texture.valid ? texture.st : Vec2f(-1.0f, -1.0f));
   if (!texture.valid) return;
@@ -84,7 +81,8 @@ void shadeFluidData(const Shading& s, const SurfaceHit& hit, const TextureSample
 
 /// The data channels of one pixel, from the ray through its centre.
 void shadeData(const Shading& s, int x, int y, std::size_t pixel, FrameBuffer& buffer) {
-  const CameraRay ray = s.camera.rayThrough(Vec2d(x + 0.5, y + 0.5));
+  CameraRay ray = s.camera.rayThrough(Vec2d(x + 0.5, y + 0.5));
+  ray.ray.byMajority = true;
   SurfaceHit hit;
   if (!s.scene.intersect(ray.ray, hit)) return;
   const Appearance appearance = s.materials.at(hit, ray.ray.direction, ray.widthAt(hit.distanceWorld));
@@ -124,7 +122,25 @@ struct Renderer::Impl {
 
   Impl(const SceneOptions& o, std::uint64_t s, PhaseTimes* t)
       : options(o), seed(s), times(t), camera(o.camera), lights(o.lights), filter(o.render.filter_width_px) {
-    for (const ObstacleOptions& obstacle : o.obstacles) obstacles.push_back(makeObstacle(obstacle));
+    for (std::size_t i = 0; i < o.obstacles.size(); ++i)
+      obstacles.push_back(makeObstacle(o.obstacles[i], fmt::format("obstacle.{}", i)));
+  }
+
+  /// The fluid as rays meet it. @param displaced  where its surface is kept if it is displaced
+  FluidGeometry geometry(const RenderInput& input, DisplacedSurface& displaced) const {
+    const MaterialOptions& material = options.material;
+    if (!input.texture || material.displacement == 0.0) return {&input.current->mesh};
+    const PhaseTimer timer(times, "render: displacement");
+    displaced =
+        displace(*input.current, *input.texture, camera,
+                 {static_cast<float>(material.displacement), static_cast<float>(material.displacement_zero),
+                  input.texelSizeWorld, static_cast<std::size_t>(material.displacement_triangles)});
+    if (displaced.longestEdge > 1.0f && input.warn)
+      input.warn(fmt::format(
+          "frame {}: material.displacement_triangles: got {}, enough for edges of {:.2g} times the "
+          "width of a pixel or texel, expected 1; set more where memory allows, or see less detail",
+          input.current->frame, material.displacement_triangles, displaced.longestEdge));
+    return displaced.geometry(input.current->mesh);
   }
 
   void addAttributes(const FluidFrame& fluid, ChannelImage& image) const {
@@ -144,12 +160,16 @@ Renderer::~Renderer() = default;
 ChannelImage Renderer::render(const RenderInput& input) const {
   if (!input.current) throw BugError("Renderer::render: no current frame");
   const FluidFrame& fluid = *input.current;
-  FluidGeometry geometry;
-  geometry.mesh = &fluid.mesh;
+  DisplacedSurface displaced;
+  const FluidGeometry geometry = impl_->geometry(input, displaced);
+  std::optional<AlphaHoles> holes;
+  if (input.texture && input.texture->hasAlpha() && impl_->options.material.alpha == "holes")
+    holes.emplace(geometry, *input.texture);
   std::unique_ptr<Scene> scene;
   {
     const PhaseTimer timer(impl_->times, "render: hierarchy");
-    scene = std::make_unique<Scene>(geometry, impl_->obstacles, impl_->options.ground, fluid.source);
+    scene = std::make_unique<Scene>(geometry, impl_->obstacles, impl_->options.ground, fluid.source,
+                                    holes ? &*holes : nullptr);
   }
   const PhaseTimer timer(impl_->times, "render: trace");
   const Materials materials(impl_->options, input.texture);

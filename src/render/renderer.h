@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "core/progress.h"
 #include "fluid/fluid_frame.h"
@@ -18,6 +20,8 @@ struct RenderInput {
   const FluidFrame* current = nullptr;
   const FluidFrame* next = nullptr;
   const TextureField* texture = nullptr;  ///< of `current`; null shows the fluid in its plain colour
+  float texelSizeWorld = 0.0f;  ///< width of one exemplar texel on the surface, metres; 0: not known
+  std::function<void(const std::string&)> warn = {};  ///< told in what the picture falls short of the options
 };
 
 /// Ray-traces frames with Embree; colour is resolved at the hit through TextureField::lookup.

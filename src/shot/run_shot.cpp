@@ -123,12 +123,18 @@ void renderShot(const Shot& shot, const RunOptions& options) {
   if (!frames.empty()) {
     const Renderer renderer(shot.scene, static_cast<std::uint64_t>(shot.shot.seed), &pipeline.times());
     pipeline.checkVelocity(frames);
+    bool warned = false;
+    const auto warnOnce = [&](const std::string& message) {
+      if (!warned) pipeline.log().warn(message);
+      warned = true;
+    };
     pipeline.forEach(frames, [&](int frame) {
       const auto texture = pipeline.texture(frame);
       pipeline.log().stage(frame, "picture");
       const auto previous = pipeline.fluid(frame - 1), current = pipeline.fluid(frame),
                  next = pipeline.fluid(frame + 1);
-      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get()});
+      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get(),
+                                            static_cast<float>(shot.texture.texel_size), warnOnce});
       addShotAttributes(image, shot, pipeline.identity().picture(frame));
       pipeline.log().stage(frame, "writing");
       {

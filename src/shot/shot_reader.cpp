@@ -170,6 +170,11 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (readsFiles(shot.fluid) && shot.fluid.path.empty())
     problems.push_back(fmt::format("{}: fluid.path is missing: the cache's files, e.g. \"caches/dam/dam.####.{}\"",
                                    placeOf(config, shot, "fluid", "path"), shot.fluid.source == "mesh" ? "ply" : "vdb"));
+  if (shot.scene.material.displacement != 0.0 && shot.texture.height.empty())
+    problems.push_back(
+        fmt::format("{}: material.displacement: got {}, but no texture.height, expected the exemplar's "
+                    "height map too; name it",
+                    placeOf(config, shot, "material", "displacement"), shot.scene.material.displacement));
   const CameraOptions& camera = shot.scene.camera;
   if (camera.position == camera.target)
     problems.push_back(fmt::format("{}: camera.target: got the camera's own position, expected another point",

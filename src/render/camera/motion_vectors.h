@@ -2,6 +2,7 @@
 
 #include "fluid/flow.h"
 #include "render/camera/camera.h"
+#include "texturing/texture_field.h"
 
 namespace ebru {
 
@@ -19,12 +20,19 @@ class MotionVectors {
   /// The same to frame f - 1.
   Vec2f backward(const Vec3f& pWorld) const { return between(pWorld, fromPrevious_.backward(pWorld)); }
 
+  /// The same of a point off the fluid's surface, where that is displaced: it rides on its `foot`, the point
+  /// of the frame's surface that it was moved from, keeps its height over it, and turns with the surface
+  /// there.
+  Vec2f forward(const Vec3f& pWorld, const SurfacePoint& foot) const;
+  Vec2f backward(const Vec3f& pWorld, const SurfacePoint& foot) const;
+
  private:
   Vec2f between(const Vec3f& fromWorld, const Vec3f& toWorld) const;
 
   const Camera& camera_;
   Flow toNext_;
   Flow fromPrevious_;
+  float probeWorld_;  ///< between two points that tell how the surface turns
 };
 
 }  // namespace ebru
