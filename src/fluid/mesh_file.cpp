@@ -16,7 +16,7 @@ namespace {
 using Names = std::array<const char*, 3>;
 using Columns = std::array<const PlyProperty*, 3>;
 
-constexpr Names positionNames{"x", "y", "z"};
+constexpr Names positionNames{"x", "y", "z"}, normalNames{"nx", "ny", "nz"};
 constexpr std::array<Names, 2> velocityNames{Names{"vx", "vy", "vz"},
                                              Names{"velocity_x", "velocity_y", "velocity_z"}};
 constexpr std::array<const char*, 2> indexNames{"vertex_indices", "vertex_index"};
@@ -34,7 +34,8 @@ bool isWanted(const std::string& element, const std::string& property) {
     return std::find(names.begin(), names.end(), property) != names.end();
   };
   if (element == "face") return among(indexNames);
-  return element == "vertex" && (among(positionNames) || among(velocityNames[0]) || among(velocityNames[1]));
+  return element == "vertex" &&
+         (among(positionNames) || among(normalNames) || among(velocityNames[0]) || among(velocityNames[1]));
 }
 
 /// @return false unless all three are there, as scalars
@@ -56,7 +57,7 @@ std::vector<Vec3f> vectorsOf(const std::string& path, const Columns& columns, do
       if (!(std::abs(value) <= largestNumber))
         refuse(path, fmt::format("vertex {} of {}, property \"{}\"", i, count, column.name),
                fmt::format("{}", column.values[i]), fmt::format("a finite number up to {:g}", largestNumber),
-               "write the frame again");
+               "write the file again");
       vectors[i][c] = static_cast<float>(value);
     }
   return vectors;
@@ -74,7 +75,7 @@ std::vector<Vec3i> trianglesOf(const std::string& path, const PlyProperty& lists
       if (!(index >= 0.0) || index >= static_cast<double>(positions.size()) || index != std::floor(index))
         refuse(path, fmt::format("face {} of {}, property \"{}\"", f, lists.first.size() - 1, lists.name),
                fmt::format("vertex {}", index),
-               fmt::format("0 to {}", static_cast<long>(positions.size()) - 1), "write the frame again");
+               fmt::format("0 to {}", static_cast<long>(positions.size()) - 1), "write the file again");
       corners.push_back(static_cast<int>(index));
     }
     cut.clear();
@@ -86,20 +87,21 @@ std::vector<Vec3i> trianglesOf(const std::string& path, const PlyProperty& lists
 }
 
 /// What no triangle uses may lie anywhere and is no part of the surface.
-void removeUnusedVertices(MovingMesh& moving) {
-  std::vector<int> newIndex(moving.mesh.positions.size(), -1);
-  for (const Vec3i& t : moving.mesh.triangles)
+/// @param perVertex  further values of the vertices; may be empty
+void removeUnusedVertices(TriangleMesh& mesh, std::vector<Vec3f>& perVertex) {
+  std::vector<int> newIndex(mesh.positions.size(), -1);
+  for (const Vec3i& t : mesh.triangles)
     for (int c = 0; c < 3; ++c) newIndex[static_cast<std::size_t>(t[c])] = 0;
-  int count = 0;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < newIndex.size(); ++i) {
     if (newIndex[i] < 0) continue;
-    moving.mesh.positions[static_cast<std::size_t>(count)] = moving.mesh.positions[i];
-    moving.velocitiesWorldPerSec[static_cast<std::size_t>(count)] = moving.velocitiesWorldPerSec[i];
-    newIndex[i] = count++;
+    mesh.positions[count] = mesh.positions[i];
+    if (!perVertex.empty()) perVertex[count] = perVertex[i];
+    newIndex[i] = static_cast<int>(count++);
   }
-  moving.mesh.positions.resize(static_cast<std::size_t>(count));
-  moving.velocitiesWorldPerSec.resize(static_cast<std::size_t>(count));
-  for (Vec3i& t : moving.mesh.triangles)
+  mesh.positions.resize(count);
+  if (!perVertex.empty()) perVertex.resize(count);
+  for (Vec3i& t : mesh.triangles)
     for (int c = 0; c < 3; ++c) t[c] = newIndex[static_cast<std::size_t>(t[c])];
 }
 
@@ -132,8 +134,26 @@ MovingMesh readMovingMesh(const std::string& path, double velocityScale) {
   moving.mesh.positions = vectorsOf(path, position, 1.0);
   moving.velocitiesWorldPerSec = vectorsOf(path, velocity, velocityScale);
   moving.mesh.triangles = trianglesOf(path, indicesOf(path, *faces), moving.mesh.positions);
-  removeUnusedVertices(moving);
+  removeUnusedVertices(moving.mesh, moving.velocitiesWorldPerSec);
   return moving;
+}
+
+TriangleMesh readPlyMesh(const std::string& path) {
+  const PlyFile file = readPly(path, isWanted);
+  const PlyElement* vertices = file.find("vertex");
+  const PlyElement* faces = file.find("face");
+  if (!vertices || !faces)
+    refuse(path, "surface", file.description(), "elements vertex and face", "write the surface as polygons");
+  Columns position, normal;
+  if (!findColumns(*vertices, positionNames, position))
+    refuse(path, "position of the vertices", fmt::format("properties {}", vertices->propertyNames()), "x y z",
+           "write them as three scalars");
+  TriangleMesh mesh;
+  mesh.positions = vectorsOf(path, position, 1.0);
+  if (findColumns(*vertices, normalNames, normal)) mesh.normals = vectorsOf(path, normal, 1.0);
+  mesh.triangles = trianglesOf(path, indicesOf(path, *faces), mesh.positions);
+  removeUnusedVertices(mesh, mesh.normals);
+  return mesh;
 }
 
 std::string describeMeshFile(const std::string& path) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A surface with a velocity at every vertex, from a PLY file.
+/// Surfaces from PLY files, with a velocity at every vertex or without.
 
 #include <string>
 #include <vector>
@@ -23,6 +23,10 @@ struct MovingMesh {
 /// @throw InputError if the file is no such PLY file, an index has no vertex, or a number is not finite
 /// Deterministic; safe to call concurrently.
 MovingMesh readMovingMesh(const std::string& path, double velocityScale);
+
+/// The same without velocities, with the normals of nx ny nz as they are in the file, if they are there.
+/// @throw InputError as readMovingMesh, and if there are no vertices or faces in the header
+TriangleMesh readPlyMesh(const std::string& path);
 
 /// One line: format, elements and properties. @throw InputError if it is no PLY file
 std::string describeMeshFile(const std::string& path);

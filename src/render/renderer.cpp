@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "core/error.h"
 #include "core/floating_point_traps.h"
@@ -12,18 +13,14 @@
 #include "render/camera/exposure.h"
 #include "render/film/aovs.h"
 #include "render/film/data_channels.h"
+#include "render/geometry/alpha_holes.h"
+#include "render/geometry/displacement.h"
 #include "render/geometry/fluid_motion.h"
+#include "render/geometry/obstacles.h"
 #include "render/integrators/beauty_pass.h"
-#include "render/geometry/shapes.h"
 
 namespace ebru {
 namespace {
-
-TriangleMesh makeObstacle(const ObstacleOptions& options) {
-  const Vec3f centre = Vec3d(options.position[0], options.position[1], options.position[2]).cast<float>();
-  if (options.shape == "sphere") return makeSphere(centre, static_cast<float>(options.radius));
-  return makeBox(centre, Vec3d(options.size[0], options.size[1], options.size[2]).cast<float>());
-}
 
 void writeBeauty(const PixelSamples& samples, std::size_t pixel, bool variance, FrameBuffer& buffer) {
   buffer.set(Aov::red, pixel, samples.mean());
@@ -69,7 +66,25 @@ struct Renderer::Impl {
 
   Impl(const SceneOptions& o, std::uint64_t s, PhaseTimes* t)
       : options(o), seed(s), times(t), path(o.camera), lights(o.lights) {
-    for (const ObstacleOptions& obstacle : o.obstacles) obstacles.push_back(makeObstacle(obstacle));
+    for (std::size_t i = 0; i < o.obstacles.size(); ++i)
+      obstacles.push_back(makeObstacle(o.obstacles[i], fmt::format("obstacle.{}", i)));
+  }
+
+  /// The fluid as rays meet it. @param displaced  where its surface is kept if it is displaced
+  FluidGeometry geometry(const RenderInput& input, const Camera& camera, DisplacedSurface& displaced) const {
+    const MaterialOptions& material = options.material;
+    if (!input.texture || material.displacement == 0.0) return {&input.current->mesh};
+    const PhaseTimer timer(times, "render: displacement");
+    displaced =
+        displace(*input.current, *input.texture, camera,
+                 {static_cast<float>(material.displacement), static_cast<float>(material.displacement_zero),
+                  input.texelSizeWorld, static_cast<std::size_t>(material.displacement_triangles)});
+    if (displaced.longestEdge > 1.0f && input.warn)
+      input.warn(fmt::format(
+          "frame {}: material.displacement_triangles: got {}, enough for edges of {:.2g} times the "
+          "width of a pixel or texel, expected 1; set more where memory allows, or see less detail",
+          input.current->frame, material.displacement_triangles, displaced.longestEdge));
+    return displaced.geometry(input.current->mesh);
   }
 
   SamplingPlan samplingPlan(const FluidFrame& fluid) const {
@@ -100,18 +115,22 @@ ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& pr
   if (!input.current) throw BugError("Renderer::render: no current frame");
   const FluidFrame& fluid = *input.current;
   const RenderOptions& options = impl_->options.render;
-  FluidGeometry geometry;
-  geometry.mesh = &fluid.mesh;
   const Exposure exposure(impl_->path, impl_->options.camera.shutter, fluid.frame);
   const Camera& camera = exposure.camera();
+  DisplacedSurface displaced;
+  FluidGeometry geometry = impl_->geometry(input, camera, displaced);
   if (exposure.movesFluid()) {
     const PhaseTimer timer(impl_->times, "render: motion");
     addShutterMotion(input.previous, fluid, input.next, exposure.open(), exposure.close(), geometry);
   }
+  std::optional<AlphaHoles> holes;
+  if (input.texture && input.texture->hasAlpha() && impl_->options.material.alpha == "holes")
+    holes.emplace(geometry, *input.texture);
   std::unique_ptr<Scene> scene;
   {
     const PhaseTimer timer(impl_->times, "render: hierarchy");
-    scene = std::make_unique<Scene>(geometry, impl_->obstacles, impl_->options.ground, fluid.source);
+    scene = std::make_unique<Scene>(geometry, impl_->obstacles, impl_->options.ground, fluid.source,
+                                    holes ? &*holes : nullptr);
   }
   const Materials materials(impl_->options, input.texture);
   std::vector<PixelSamples> samples;

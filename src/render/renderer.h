@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "core/progress.h"
 #include "fluid/fluid_frame.h"
@@ -19,6 +20,8 @@ struct RenderInput {
   const FluidFrame* current = nullptr;
   const FluidFrame* next = nullptr;
   const TextureField* texture = nullptr;  ///< of `current`; null shows the fluid in its plain colour
+  float texelSizeWorld = 0.0f;  ///< width of one exemplar texel on the surface, metres; 0: not known
+  std::function<void(const std::string&)> warn = {};  ///< told in what the picture falls short of the options
 };
 
 /// Called now and then with the lit picture (R G B A) as far as it is.

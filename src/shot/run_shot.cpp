@@ -103,6 +103,11 @@ void renderShot(const Shot& shot, const RunOptions& options) {
   if (!frames.empty()) {
     const Renderer renderer(shot.scene, static_cast<std::uint64_t>(shot.shot.seed), &pipeline.times());
     pipeline.checkVelocity(frames);
+    bool warned = false;
+    const auto warnOnce = [&](const std::string& message) {
+      if (!warned) pipeline.log().warn(message);
+      warned = true;
+    };
     pipeline.forEach(frames, [&](int frame) {
       const auto texture = pipeline.texture(frame);
       pipeline.log().stage(frame, "picture");
@@ -113,7 +118,9 @@ void renderShot(const Shot& shot, const RunOptions& options) {
         watch = [&, occasionally = Occasionally()](const ChannelImage& unfinished) mutable {
           if (occasionally.now()) previews->writePartial(frame, unfinished);
         };
-      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get()}, watch);
+      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get(),
+                                             static_cast<float>(shot.texture.texel_size), warnOnce},
+                                            watch);
       addShotAttributes(image, shot, pipeline.identity().picture(frame));
       pipeline.log().stage(frame, "writing");
       {

@@ -188,6 +188,11 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (shot.texture.exemplar.empty() && shot.texture.method != "plain")
     problems.push_back(fmt::format("{}: texture.exemplar is missing: an example image, or texture.method = \"plain\"",
                                    placeOf(config, shot, "texture", "exemplar")));
+  if (shot.scene.material.displacement != 0.0 && shot.texture.height.empty())
+    problems.push_back(
+        fmt::format("{}: material.displacement: got {}, but no texture.height, expected the exemplar's "
+                    "height map too; name it",
+                    placeOf(config, shot, "material", "displacement"), shot.scene.material.displacement));
   const CameraOptions& camera = shot.scene.camera;
   if (camera.position == camera.target)
     problems.push_back(fmt::format("{}: camera.target: got the camera's own position, expected another point",

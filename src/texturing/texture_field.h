@@ -37,6 +37,8 @@ class TextureField {
   /// Nearest means nearest with a compatible normal: nothing bleeds through a thin sheet.
   /// Const, lock-free, safe from any thread.
   virtual TextureSample lookup(const SurfacePoint& point) const = 0;
+  /// Whether a sample's alpha may be anything but 1.
+  virtual bool hasAlpha() const { return false; }
 };
 
 }  // namespace ebru

@@ -83,6 +83,13 @@ TEST_F(ShotReader, ResolvesPathsAgainstTheShotFile) {
             std::vector<std::string>{"/elsewhere/lava.png"});
 }
 
+TEST_F(ShotReader, DisplacementWantsAHeightMap) {
+  EXPECT_TRUE(says(problemsOf(std::string(good) + "[material]\ndisplacement = 0.02\n"),
+                   "material.displacement: got 0.02, but no texture.height"));
+  EXPECT_DOUBLE_EQ(read(good, {"material.displacement=0.02", "texture.height=pebbles_height.png"}).scene.material.displacement,
+                   0.02);
+}
+
 TEST_F(ShotReader, ListsEveryProblemAtOnceWithItsLine) {
   const std::string problems = problemsOf(R"([shot]
 first_fram = 1

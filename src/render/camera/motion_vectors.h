@@ -2,6 +2,7 @@
 
 #include "fluid/frame_flow.h"
 #include "render/camera/camera_path.h"
+#include "texturing/texture_field.h"
 
 namespace ebru {
 
@@ -32,12 +33,24 @@ class MotionVectors {
   Vec2f forwardAtRest(const Vec3f& pWorld) const { return between(pWorld, pWorld, after_); }
   Vec2f backwardAtRest(const Vec3f& pWorld) const { return between(pWorld, pWorld, before_); }
 
+  /// The same of a point off the fluid's surface, where that is displaced: it rides on its `foot`, the point
+  /// of the frame's surface that it was moved from, keeps its height over it, and turns with the surface
+  /// there.
+  Vec2f forward(const Vec3f& pWorld, const SurfacePoint& foot) const {
+    return ofRider(pWorld, foot, middle_ + 1.0, after_);
+  }
+  Vec2f backward(const Vec3f& pWorld, const SurfacePoint& foot) const {
+    return ofRider(pWorld, foot, middle_ - 1.0, before_);
+  }
+
  private:
+  Vec2f ofRider(const Vec3f& pWorld, const SurfacePoint& foot, double time, const Camera& there) const;
   Vec2f between(const Vec3f& fromWorld, const Vec3f& toWorld, const Camera& there) const;
 
   double middle_;
   Camera here_, before_, after_;
   FrameFlow flow_;
+  float probeWorld_;  ///< between two points that tell how the surface turns
 };
 
 }  // namespace ebru

@@ -19,7 +19,8 @@ void writeFluid(const DataScene& s, const SurfaceHit& hit, const TextureSample& 
 }  // namespace
 
 void writeDataChannels(const DataScene& s, int x, int y, std::size_t pixel, FrameBuffer& buffer) {
-  const CameraRay ray = s.exposure.dataRay(Vec2d(x + 0.5, y + 0.5));
+  CameraRay ray = s.exposure.dataRay(Vec2d(x + 0.5, y + 0.5));
+  ray.ray.byMajority = true;
   SurfaceHit hit;
   if (!s.scene.intersect(ray.ray, hit)) return;
   const Appearance appearance = s.materials.at(hit, ray.ray.direction, ray.widthAt(hit.distanceWorld));
@@ -29,9 +30,9 @@ void writeDataChannels(const DataScene& s, int x, int y, std::size_t pixel, Fram
   buffer.set(Aov::normalX, pixel, hit.normal);
   const bool fluid = hit.kind == SurfaceKind::fluid;
   buffer.set(Aov::forwardU, pixel,
-             fluid ? s.motion.forward(hit.position) : s.motion.forwardAtRest(hit.position));
+             fluid ? s.motion.forward(hit.position, hit.onTexture) : s.motion.forwardAtRest(hit.position));
   buffer.set(Aov::backwardU, pixel,
-             fluid ? s.motion.backward(hit.position) : s.motion.backwardAtRest(hit.position));
+             fluid ? s.motion.backward(hit.position, hit.onTexture) : s.motion.backwardAtRest(hit.position));
   if (fluid) writeFluid(s, hit, appearance.texture, pixel, buffer);
 }
 

@@ -27,12 +27,25 @@ OptionFields fields(GroundOptions& o) {
 }
 
 OptionFields fields(ObstacleOptions& o) {
+  OptionField file =
+      optionField("file", &o.file, "",
+                  "Mesh: its file, .obj or .ply, counter-clockwise from outside. It is shaded smooth where "
+                  "the file has normals, else flat.");
+  file.path = true;
   return joined(
       {
-          optionChoice("shape", &o.shape, "An axis-aligned box or a sphere.", {"box", "sphere"}),
-          optionField("position", &o.position, "m", "Its centre."),
-          optionField("size", &o.size, "m", "Box: length along x, y and z.", 1e-6),
+          optionChoice("shape", &o.shape,
+                       "An axis-aligned box, a sphere, a tank (a box that is hollow and open at the top), or "
+                       "a mesh from "
+                       "a file.",
+                       {"box", "sphere", "tank", "mesh"}),
+          optionField("position", &o.position, "m",
+                      "Its centre; mesh: where the file's origin comes to lie."),
+          optionField("size", &o.size, "m", "Box and tank: length along x, y and z, outside.", 1e-6),
           optionField("radius", &o.radius, "m", "Sphere: its radius.", 1e-6),
+          optionField("thickness", &o.thickness, "m", "Tank: of its walls and its floor.", 1e-6),
+          file,
+          optionField("scale", &o.scale, "", "Mesh: metres per unit of the file.", 1e-12),
       },
       materialFields(o.material));
 }

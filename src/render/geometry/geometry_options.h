@@ -26,6 +26,9 @@ struct ObstacleOptions {
   std::array<double, 3> position{0.0, 0.0, 0.0};
   std::array<double, 3> size{1.0, 1.0, 1.0};
   double radius = 0.5;
+  double thickness = 0.01;
+  std::string file;
+  double scale = 1.0;
   MaterialOptions material;
 };
 OptionFields fields(ObstacleOptions& options);

@@ -12,6 +12,7 @@ struct Ray {
   Vec3f direction = Vec3f(0.0f, 0.0f, 1.0f);
   float farWorld = std::numeric_limits<float>::infinity();
   float time = 0.5f;  ///< 0 when the shutter opens, 1 when it closes
+  bool byMajority = false;  ///< what has an alpha of 0.5 and more is met as if whole, other things not at all
 
   Vec3f at(float distance) const { return origin + distance * direction; }
 };

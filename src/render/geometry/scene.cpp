@@ -1,24 +1,11 @@
 #include "render/geometry/scene.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
-
 namespace ebru {
 namespace {
-
-void checkIndices(const TriangleMesh& mesh, const std::string& source) {
-  const int count = static_cast<int>(mesh.positions.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (mesh.triangles[i].minCoeff() < 0 || mesh.triangles[i].maxCoeff() >= count)
-      throw InputError(fmt::format(
-          "{}: triangle {}: got vertices {} {} {}, expected 0 to {}; write the mesh again", source, i,
-          mesh.triangles[i][0], mesh.triangles[i][1], mesh.triangles[i][2], count - 1));
-}
 
 /// A triangle with the normals of its corners, and a point in it.
 struct Corners {
@@ -67,7 +54,7 @@ void turnWithTriangle(const std::vector<Vec3f>& rest, const Vec3i& triangle,
 Scene::Scene(const FluidGeometry& fluid, const std::vector<TriangleMesh>& obstacles, const GroundOptions& ground,
              const std::string& source, const HitFilter* holes)
     : fluid_(fluid), ground_(ground) {
-  checkIndices(*fluid.mesh, source);
+  checkTriangles(*fluid.mesh, source);
   meshes_.push_back({fluid.mesh, holes != nullptr});
   if (!fluid.atOpen.empty()) {
     meshes_.front().atOpen = &fluid.atOpen;
@@ -133,32 +120,6 @@ void Scene::completeGroundHit(const Ray& ray, SurfaceHit& hit) const {
   hit.originBeyond = hit.position - off;
 }
 
-SurfacePoint Scene::texturePoint(std::uint32_t triangle, const Vec2f& barycentric) const {
-  const TriangleMesh& mesh = *fluid_.mesh;
-  const Vec3i& corner = mesh.triangles[triangle];
-  const std::vector<Vec3f>& positions = fluid_.basePositions.empty() ? mesh.positions : fluid_.basePositions;
-  const std::vector<Vec3f>& normals = fluid_.baseNormals.empty() ? mesh.normals : fluid_.baseNormals;
-  const auto at = [&](const std::vector<Vec3f>& values, int k) -> const Vec3f& {
-    return values[static_cast<std::size_t>(corner[k])];
-  };
-  const float first = 1.0f - barycentric.x() - barycentric.y();
-  const auto between = [&](const std::vector<Vec3f>& values) -> Vec3f {
-    return first * at(values, 0) + barycentric.x() * at(values, 1) + barycentric.y() * at(values, 2);
-  };
-  SurfacePoint point;
-  point.position = between(positions);
-  point.triangle = fluid_.baseTriangles.empty() ? triangle : fluid_.baseTriangles[triangle];
-  point.barycentric = barycentric;
-  point.normal = normals.size() == positions.size() ? between(normals) : Vec3f(Vec3f::Zero());
-  const float length = point.normal.norm();
-  point.normal = length > 1e-6f && std::isfinite(length)
-                     ? Vec3f(point.normal / length)
-                     : Vec3f((at(positions, 1) - at(positions, 0))
-                                 .cross(at(positions, 2) - at(positions, 0))
-                                 .stableNormalized());
-  return point;
-}
-
 void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hit) const {
   const RayMesh& part = meshes_[found.mesh];
   const TriangleMesh& mesh = *part.mesh;
@@ -199,7 +160,7 @@ void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hi
   const Vec3f off = (side * epsilon(hit.position)) * geometric;
   hit.originHere = corners.lift(hit.position, side) + off;
   hit.originBeyond = hit.position - off;
-  if (hit.kind == SurfaceKind::fluid) hit.onTexture = texturePoint(found.triangle, found.barycentric);
+  if (hit.kind == SurfaceKind::fluid) hit.onTexture = texturePoint(fluid_, found.triangle, found.barycentric);
 }
 
 }  // namespace ebru

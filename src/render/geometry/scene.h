@@ -7,6 +7,7 @@
 
 #include "fluid/triangle_mesh.h"
 #include "render/geometry/embree_scene.h"
+#include "render/geometry/fluid_geometry.h"
 #include "render/geometry/geometry_options.h"
 #include "render/geometry/ray.h"
 #include "texturing/texture_field.h"
@@ -30,19 +31,6 @@ struct SurfaceHit {
   float distanceWorld = 0.0f;
 };
 
-/// The fluid as rays meet it. Vertices of all lists are parallel to those of `mesh`.
-struct FluidGeometry {
-  const TriangleMesh* mesh = nullptr;  ///< as it is seen at the frame's time
-  /// Where the vertices are when the shutter opens and closes; empty: they rest.
-  std::vector<Vec3f> atOpen = {}, atClose = {};
-  /// And in the middle between; empty: as in `mesh`.
-  std::vector<Vec3f> atCentre = {};
-  /// Where the vertices and their normals are on the frame's own surface; empty: there.
-  std::vector<Vec3f> basePositions = {}, baseNormals = {};
-  /// Per triangle of `mesh`, the triangle of the frame's mesh it is a part of; empty: itself.
-  std::vector<std::uint32_t> baseTriangles = {};
-};
-
 /// All that rays can meet in one frame: the fluid, the obstacles, and the ground, which is an exact plane.
 /// Const members are safe to call concurrently.
 class Scene {
@@ -58,9 +46,6 @@ class Scene {
   /// @return false, `hit` untouched, if the ray meets nothing
   bool intersect(const Ray& ray, SurfaceHit& hit) const;
   bool occluded(const Ray& ray) const;
-
-  /// The point that the fluid's texture is asked for at a hit on the fluid's mesh. Its footprint is zero.
-  SurfacePoint texturePoint(std::uint32_t triangle, const Vec2f& barycentric) const;
 
  private:
   bool groundDistance(const Ray& ray, float& distanceWorld) const;

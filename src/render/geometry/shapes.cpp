@@ -1,9 +1,31 @@
 #include "render/geometry/shapes.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace ebru {
+namespace {
+
+/// A flat quad, counter-clockwise seen from where its normal points.
+void addQuad(TriangleMesh& mesh, const std::array<Vec3f, 4>& corners) {
+  const int first = static_cast<int>(mesh.positions.size());
+  const Vec3f normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalized();
+  for (const Vec3f& corner : corners) {
+    mesh.positions.push_back(corner);
+    mesh.normals.push_back(normal);
+  }
+  mesh.triangles.emplace_back(first, first + 1, first + 2);
+  mesh.triangles.emplace_back(first, first + 2, first + 3);
+}
+
+/// Corners of a horizontal rectangle, counter-clockwise from above.
+std::array<Vec3f, 4> rectangle(const Vec3f& centre, float halfX, float halfY) {
+  return {Vec3f(centre + Vec3f(-halfX, -halfY, 0.0f)), Vec3f(centre + Vec3f(halfX, -halfY, 0.0f)),
+          Vec3f(centre + Vec3f(halfX, halfY, 0.0f)), Vec3f(centre + Vec3f(-halfX, halfY, 0.0f))};
+}
+
+}  // namespace
 
 TriangleMesh makeBox(const Vec3f& centreWorld, const Vec3f& sizeWorld) {
   TriangleMesh mesh;
@@ -43,6 +65,26 @@ TriangleMesh makeSphere(const Vec3f& centreWorld, float radiusWorld, int rings) 
       if (i + 1 < rings) mesh.triangles.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
       if (i > 0) mesh.triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
     }
+  return mesh;
+}
+
+TriangleMesh makeTank(const Vec3f& centreWorld, const Vec3f& outerSizeWorld, float thicknessWorld) {
+  const Vec3f half = 0.5f * outerSizeWorld;
+  const Vec3f below = centreWorld - Vec3f(0.0f, 0.0f, half.z()),
+              above = centreWorld + Vec3f(0.0f, 0.0f, half.z());
+  const Vec3f floor = below + Vec3f(0.0f, 0.0f, thicknessWorld);
+  const float innerX = half.x() - thicknessWorld, innerY = half.y() - thicknessWorld;
+  const auto bottom = rectangle(below, half.x(), half.y()), top = rectangle(above, half.x(), half.y());
+  const auto inBottom = rectangle(floor, innerX, innerY), inTop = rectangle(above, innerX, innerY);
+  TriangleMesh mesh;
+  addQuad(mesh, {bottom[0], bottom[3], bottom[2], bottom[1]});
+  addQuad(mesh, inBottom);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t j = (i + 1) % 4;
+    addQuad(mesh, {bottom[i], bottom[j], top[j], top[i]});
+    addQuad(mesh, {inBottom[j], inBottom[i], inTop[i], inTop[j]});
+    addQuad(mesh, {top[i], top[j], inTop[j], inTop[i]});
+  }
   return mesh;
 }
 

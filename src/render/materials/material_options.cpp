@@ -26,10 +26,36 @@ OptionFields withTypeCalled(const std::string& typeKey, MaterialOptions& o) {
   };
 }
 
+/// How maps of the exemplar beyond colour shape the fluid.
+OptionFields textureFields(MaterialOptions& o) {
+  return {
+      optionField("displacement", &o.displacement, "m",
+                  "How much farther out of the fluid a height of 1 in texture.height lies than one of 0; 0 "
+                  "leaves the "
+                  "surface as it is. The surface is refined to the width of a pixel or of a texel, the "
+                  "larger of them "
+                  "[Cook 1984]."),
+      optionField("displacement_zero", &o.displacement_zero, "",
+                  "The height that stays on the fluid's surface."),
+      optionField(
+          "displacement_triangles", &o.displacement_triangles, "",
+          "Most triangles the surface is refined to; they take about 300 bytes each. The run says when "
+          "they do not suffice.",
+          0, 500000000),
+      optionChoice(
+          "alpha", &o.alpha,
+          "holes: where the texture's alpha is below 1 that share of the light goes through; opaque: it "
+          "shows nothing of its alpha.",
+          {"holes", "opaque"}),
+  };
+}
+
 }  // namespace
 
-OptionFields fields(MaterialOptions& options) {
-  return withTypeCalled("type", options);
+OptionFields fields(MaterialOptions& o) {
+  OptionFields result = withTypeCalled("type", o);
+  for (OptionField& field : textureFields(o)) result.push_back(std::move(field));
+  return result;
 }
 
 OptionFields materialFields(MaterialOptions& options) {

@@ -17,6 +17,11 @@ struct MaterialOptions {
   double ior = 1.5;
   std::array<double, 3> transmission_colour{1.0, 1.0, 1.0};
   double transmission_depth = 1.0;
+  // The fluid's alone.
+  double displacement = 0.0;
+  double displacement_zero = 0.5;
+  int displacement_triangles = 4'000'000;
+  std::string alpha = "holes";
 };
 
 /// Of [material], where the kind of material is called `type`.

@@ -19,6 +19,7 @@ class ChartField : public TextureField {
   ChartField(std::shared_ptr<const TextureParticles> particles, std::shared_ptr<const Exemplar> exemplar,
              float texelWorld);
   TextureSample lookup(const SurfacePoint& point) const override;
+  bool hasAlpha() const override { return exemplar_->hasAlpha(); }
 
  private:
   NearestParticles nearest_;
