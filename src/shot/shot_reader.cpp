@@ -158,6 +158,10 @@ std::string placeOf(const ConfigValue& config, const Shot& shot, const std::stri
   return found ? found->where : shot.file.string();
 }
 
+bool lacksMap(const TextureOptions& texture, const std::string& map) {
+  return map == "emission" ? texture.emission.empty() : map == "height" && texture.height.empty();
+}
+
 /// What no single field can tell. Only called on shots whose fields are all right.
 void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
   const ShotOptions& s = shot.shot;
@@ -170,6 +174,12 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (readsFiles(shot.fluid) && shot.fluid.path.empty())
     problems.push_back(fmt::format("{}: fluid.path is missing: the cache's files, e.g. \"caches/dam/dam.####.{}\"",
                                    placeOf(config, shot, "fluid", "path"), shot.fluid.source == "mesh" ? "ply" : "vdb"));
+  const MaterialOptions& material = shot.scene.material;
+  if (material.emission == "blackbody" && lacksMap(shot.texture, material.emission_source))
+    problems.push_back(fmt::format("{}: material.emission_source: got \"{}\", expected a map that the texture has; set "
+                                   "texture.{} or another source",
+                                   placeOf(config, shot, "material", "emission_source"), material.emission_source,
+                                   material.emission_source));
   const CameraOptions& camera = shot.scene.camera;
   if (camera.position == camera.target)
     problems.push_back(fmt::format("{}: camera.target: got the camera's own position, expected another point",

@@ -31,9 +31,16 @@ struct TextureSample {
   bool valid = false;            ///< false: this point has no texture (a hole)
 };
 
+/// What a texture says beyond its colour.
+struct TextureMaps {
+  bool height = false;
+  bool emission = false;
+};
+
 class TextureField {
  public:
   virtual ~TextureField() = default;
+  virtual TextureMaps maps() const { return {}; }
   /// Nearest means nearest with a compatible normal: nothing bleeds through a thin sheet.
   /// Const, lock-free, safe from any thread.
   virtual TextureSample lookup(const SurfacePoint& point) const = 0;

@@ -38,6 +38,7 @@ void checkTable() {
 TEST(RenderOptions, EveryFieldHasHelpAndADefaultInItsRange) {
   checkTable<CameraOptions>();
   checkTable<RenderOptions>();
+  checkTable<MaterialOptions>();
   checkTable<LightOptions>();
   checkTable<GroundOptions>();
   checkTable<ObstacleOptions>();

@@ -34,6 +34,7 @@ class ErosionField : public TextureField {
  public:
   ErosionField(std::shared_ptr<const PatchTexture> texture, std::shared_ptr<const PatchLayers> layers)
       : texture_(std::move(texture)), layers_(std::move(layers)) {}
+  TextureMaps maps() const override;
   TextureSample lookup(const SurfacePoint& point) const override;
 
  private:

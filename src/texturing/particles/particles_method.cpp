@@ -25,6 +25,8 @@ class CoordinateField : public TextureField {
                   float texelWorld)
       : nearest_(std::move(particles), texelWorld), exemplar_(std::move(exemplar)) {}
 
+  TextureMaps maps() const override { return mapsOf(*exemplar_); }
+
   TextureSample lookup(const SurfacePoint& point) const override {
     TextureSample sample;
     std::array<PointIndex::Neighbour, interpolated> found;
