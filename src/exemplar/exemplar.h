@@ -78,6 +78,7 @@ class Exemplar {
 
   bool hasHeight() const { return hasHeight_; }
   bool hasAlpha() const { return alphaSlot_ >= 0; }
+  bool hasEmission() const { return emissionSlot_ >= 0; }
   /// Whether `addOtherMaps` adds anything.
   bool hasOtherMaps() const { return otherChannels_ > 0; }
   /// How maps become texels.

@@ -124,7 +124,7 @@ ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& pr
     addShutterMotion(input.previous, fluid, input.next, exposure.open(), exposure.close(), geometry);
   }
   std::optional<AlphaHoles> holes;
-  if (input.texture && input.texture->hasAlpha() && impl_->options.material.alpha == "holes")
+  if (input.texture && input.texture->maps().alpha && impl_->options.material.alpha == "holes")
     holes.emplace(geometry, *input.texture);
   std::unique_ptr<Scene> scene;
   {

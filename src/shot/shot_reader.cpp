@@ -173,6 +173,10 @@ void checkCamera(const ConfigValue& config, const Shot& shot, std::vector<std::s
   }
 }
 
+bool lacksMap(const TextureOptions& texture, const std::string& map) {
+  return map == "emission" ? texture.emission.empty() : map == "height" && texture.height.empty();
+}
+
 /// What no single field can tell. Only called on shots whose fields are all right.
 void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
   const ShotOptions& s = shot.shot;
@@ -193,6 +197,12 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
         fmt::format("{}: material.displacement: got {}, but no texture.height, expected the exemplar's "
                     "height map too; name it",
                     placeOf(config, shot, "material", "displacement"), shot.scene.material.displacement));
+  const MaterialOptions& material = shot.scene.material;
+  if (material.emission == "blackbody" && lacksMap(shot.texture, material.emission_source))
+    problems.push_back(fmt::format("{}: material.emission_source: got \"{}\", expected a map that the texture has; set "
+                                   "texture.{} or another source",
+                                   placeOf(config, shot, "material", "emission_source"), material.emission_source,
+                                   material.emission_source));
   const CameraOptions& camera = shot.scene.camera;
   if (camera.position == camera.target)
     problems.push_back(fmt::format("{}: camera.target: got the camera's own position, expected another point",

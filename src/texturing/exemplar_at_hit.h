@@ -14,4 +14,8 @@ inline void take(const ExemplarSample& shown, TextureSample& sample) {
   sample.emission = shown.emission;
 }
 
+inline TextureMaps mapsOf(const Exemplar& exemplar) {
+  return {exemplar.hasHeight(), exemplar.hasEmission(), exemplar.hasAlpha()};
+}
+
 }  // namespace ebru

@@ -31,14 +31,20 @@ struct TextureSample {
   bool valid = false;            ///< false: this point has no texture (a hole)
 };
 
+/// What a texture says beyond its colour.
+struct TextureMaps {
+  bool height = false;
+  bool emission = false;
+  bool alpha = false;  ///< a sample's alpha may be other than 1
+};
+
 class TextureField {
  public:
   virtual ~TextureField() = default;
+  virtual TextureMaps maps() const { return {}; }
   /// Nearest means nearest with a compatible normal: nothing bleeds through a thin sheet.
   /// Const, lock-free, safe from any thread.
   virtual TextureSample lookup(const SurfacePoint& point) const = 0;
-  /// Whether a sample's alpha may be anything but 1.
-  virtual bool hasAlpha() const { return false; }
 };
 
 }  // namespace ebru

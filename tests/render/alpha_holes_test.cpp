@@ -20,7 +20,7 @@ using test::topView;
 class Veil : public TextureField {
  public:
   explicit Veil(float alpha) : alpha_(alpha) {}
-  bool hasAlpha() const override { return true; }
+  TextureMaps maps() const override { return {.alpha = true}; }
   TextureSample lookup(const SurfacePoint&) const override {
     TextureSample sample;
     sample.colour = Vec3f::Constant(0.5f);

@@ -44,6 +44,7 @@ class PlainTexture : public TextureField {
  public:
   explicit PlainTexture(const Vec3f& colour, float roughness = -1.0f, const Vec3f& emission = Vec3f::Zero())
       : colour_(colour), emission_(emission), roughness_(roughness) {}
+  TextureMaps maps() const override { return {false, (emission_.array() != 0.0f).any()}; }
   TextureSample lookup(const SurfacePoint& point) const override {
     TextureSample sample;
     sample.colour = colour_;

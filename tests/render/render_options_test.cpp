@@ -39,6 +39,7 @@ TEST(RenderOptions, EveryFieldHasHelpAndADefaultInItsRange) {
   checkTable<CameraOptions>();
   checkTable<CameraKeyOptions>();
   checkTable<RenderOptions>();
+  checkTable<MaterialOptions>();
   checkTable<LightOptions>();
   checkTable<GroundOptions>();
   checkTable<ObstacleOptions>();

@@ -128,6 +128,14 @@ TEST_F(ShotReader, AsksForWhatIsMissing) {
   EXPECT_TRUE(problemsOf(fluid + "[texture]\nmethod = \"plain\"\n").empty());
 }
 
+TEST_F(ShotReader, GlowNeedsTheMapThatItIsMadeFrom) {
+  const std::string glowing = "material.emission=blackbody";
+  EXPECT_TRUE(says(problemsOf(good, {glowing}), "material.emission_source: got \"emission\""));
+  EXPECT_TRUE(says(problemsOf(good, {glowing, "material.emission_source=height"}), "set texture.height"));
+  EXPECT_EQ(problemsOf(good, {glowing, "material.emission_source=colour"}), "no problem");
+  EXPECT_EQ(problemsOf(good, {glowing, "texture.emission=a.png"}), "no problem");
+}
+
 TEST_F(ShotReader, SaysWhereTheFileIsNotToml) {
   EXPECT_TRUE(says(problemsOf("[shot]\nname = = 3\n"), "dam.toml:2: not TOML"));
 }

@@ -1,7 +1,5 @@
 #include "render/materials/albedo_tables.h"
 
-#include <Eigen/Core>
-
 #include "render/materials/fresnel.h"
 #include "render/materials/microfacet.h"
 
@@ -49,7 +47,7 @@ Cell iorCell(float ior, std::size_t count) {
 }
 
 constexpr std::size_t latticeSize = 377, latticeStep = 233;  ///< neighbours in Fibonacci's sequence
-using Lanes = Eigen::Array<float, static_cast<int>(latticeSize), 1>;
+using Lanes = std::array<float, latticeSize>;
 
 /// Points of the unit square that `Ggx::sampleVisible` is fed with, and their weights: a Fibonacci lattice.
 /// The integrands are periodic in the first coordinate; u^2 (3 - 2u) makes them so in the second. No two
@@ -65,12 +63,31 @@ struct Lattice {
       const double u = (static_cast<double>(i) + 0.5) / n;
       points[i] = Vec2d(static_cast<double>(i * latticeStep % latticeSize) / n, u * u * (3.0 - 2.0 * u))
                       .cast<float>();
-      weights[static_cast<Eigen::Index>(i)] = static_cast<float>(6.0 * u * (1.0 - u) / n);
+      weights[i] = static_cast<float>(6.0 * u * (1.0 - u) / n);
     }
   }
 };
 
-/// Integrals over the facets that a viewer at one height sees.
+/// max(0, x). Without a branch, so that loops can be vectorised.
+float positive(float x) {
+  return 0.5f * (x + std::abs(x));
+}
+
+/// In eight parts, so that it can be vectorised without another order of the terms.
+float sum(const Lanes& terms) {
+  constexpr std::size_t parts = 8;
+  std::array<float, parts> partial{};
+  std::size_t i = 0;
+  for (; i + parts <= latticeSize; i += parts)
+    for (std::size_t k = 0; k < parts; ++k) partial[k] += terms[i + k];
+  float result = 0.0f;
+  for (const float part : partial) result += part;
+  for (; i < latticeSize; ++i) result += terms[i];
+  return std::max(0.0f, result);
+}
+
+/// Integrals over the facets that a viewer at one height sees. Plain loops without branches: libraries take
+/// square roots of many numbers by approximations that differ between processors.
 class VisibleFacets {
  public:
   VisibleFacets(const Lattice& lattice, const Ggx& facets, float viewerZ)
@@ -79,41 +96,47 @@ class VisibleFacets {
         viewerZ_(viewerZ),
         stretch_(facets.stretch(viewerZ)) {
     const Vec3f viewer(std::sqrt(std::max(0.0f, 1.0f - viewerZ * viewerZ)), 0.0f, viewerZ);
-    for (std::size_t i = 0; i < lattice.points.size(); ++i) {
+    for (std::size_t i = 0; i < latticeSize; ++i) {
       const Vec3f m = facets.sampleVisible(viewer, lattice.points[i]);
-      const auto lane = static_cast<Eigen::Index>(i);
-      z_[lane] = m.z();
-      cosine_[lane] = std::clamp(viewer.dot(m), 1e-6f, 1.0f);
+      z_[i] = m.z();
+      cosine_[i] = std::clamp(viewer.dot(m), 1e-6f, 1.0f);
+      const float light = std::max(0.0f, 2.0f * cosine_[i] * z_[i] - viewerZ);
+      reflected_[i] = light * (viewerZ + stretch_) / (light * stretch_ + viewerZ * stretchOf(light));
     }
-    const Lanes light = (2.0f * cosine_ * z_ - viewerZ).max(0.0f);
-    reflected_ = light * (viewerZ + stretch_) / (light * stretch_ + viewerZ * stretchOf(light));
   }
 
-  float reflectionLoss() const { return sum(1.0f - reflected_); }
+  float reflectionLoss() const {
+    Lanes loss;
+    for (std::size_t i = 0; i < latticeSize; ++i) loss[i] = weights_[i] * (1.0f - reflected_[i]);
+    return sum(loss);
+  }
 
   struct Dielectric {
     float loss, reflected;
   };
   /// @param eta  of the side the viewer is not on, relative to his
   Dielectric dielectric(float eta) const {
-    const float back = 1.0f / eta;
-    const Lanes behind = (1.0f - (1.0f - cosine_.square()) * (back * back)).max(0.0f).sqrt();
-    const Lanes perpendicular = (cosine_ - eta * behind) / (cosine_ + eta * behind);
-    const Lanes parallel = (eta * cosine_ - behind) / (eta * cosine_ + behind);
-    const Lanes fresnel = 0.5f * (perpendicular.square() + parallel.square());
-    const Lanes light = (back * viewerZ_ - (back * cosine_ - behind) * z_).max(0.0f);
-    const Lanes transmitted = 2.0f * light / (light + stretchOf(light));
-    return {sum(fresnel * (1.0f - reflected_) + (1.0f - fresnel) * (1.0f - transmitted)),
-            sum(fresnel * reflected_)};
+    Lanes loss, reflected;
+    const float back = 1.0f / eta, back2 = back * back;
+    for (std::size_t i = 0; i < latticeSize; ++i) {
+      // Total reflection, behind = 0, comes out as reflectance 1.
+      const float c = cosine_[i], behind = std::sqrt(positive(1.0f - (1.0f - c * c) * back2));
+      const float perpendicular = (c - eta * behind) / (c + eta * behind);
+      const float parallel = (eta * c - behind) / (eta * c + behind);
+      const float fresnel = 0.5f * (perpendicular * perpendicular + parallel * parallel);
+      const float light = positive(back * viewerZ_ - (back * c - behind) * z_[i]);
+      const float transmitted = 2.0f * light / (light + stretchOf(light));
+      reflected[i] = weights_[i] * fresnel * reflected_[i];
+      loss[i] = weights_[i] * (1.0f - fresnel * reflected_[i] - (1.0f - fresnel) * transmitted);
+    }
+    return {sum(loss), sum(reflected)};
   }
 
  private:
-  Lanes stretchOf(const Lanes& z) const {
-    return (z.square() + width2_ * (1.0f - z.square())).max(0.0f).sqrt();
-  }
-  float sum(const Lanes& values) const { return std::max(0.0f, (values * weights_).sum()); }
+  float stretchOf(float z) const { return std::sqrt(z * z + width2_ * positive(1.0f - z * z)); }
 
-  Lanes weights_, z_, cosine_, reflected_;
+  const Lanes& weights_;
+  Lanes z_, cosine_, reflected_;
   float width2_, viewerZ_, stretch_;
 };
 

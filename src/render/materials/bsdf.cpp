@@ -20,7 +20,8 @@ Bsdf::Bsdf(const Material& material, const Vec3f& normal, const Vec3f& towardsVi
 Bsdf::Lobe Bsdf::makeLobe(const Material& material, const Vec3f& viewer, bool inside) {
   Material m = material;
   m.albedo = m.albedo.cwiseMax(0.0f).cwiseMin(1.0f);
-  m.roughness = std::clamp(m.roughness, 0.0f, 1.0f);
+  m.roughness =
+      std::clamp(m.roughness, m.type == MaterialType::diffuse ? 0.0f : Ggx::smallestRoughness, 1.0f);
   switch (m.type) {
     case MaterialType::coated:
       return CoatedLobe(m, viewer);

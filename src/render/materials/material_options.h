@@ -22,9 +22,13 @@ struct MaterialOptions {
   double displacement_zero = 0.5;
   int displacement_triangles = 4'000'000;
   std::string alpha = "holes";
+  std::string emission = "texture";
+  std::string emission_source = "emission";
+  std::array<double, 2> emission_temperature{800.0, 1500.0};
+  double emission_strength = 1.0;
 };
 
-/// Of [material], where the kind of material is called `type`.
+/// Of [material], where the kind of material is called `type`; only there things emit.
 OptionFields fields(MaterialOptions& options);
 /// To be appended to the fields of a thing that has a material, where the kind is called `material`.
 OptionFields materialFields(MaterialOptions& options);

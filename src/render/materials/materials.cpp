@@ -29,6 +29,7 @@ Material makeMaterial(const MaterialOptions& o) {
 Materials::Materials(const SceneOptions& options, const TextureField* texture)
     : texture_(texture),
       groundOptions_(options.ground),
+      emission_(options.material, texture),
       fluid_(makeMaterial(options.material)),
       ground_(makeMaterial(options.ground.material)),
       groundChecker_(ground_) {
@@ -63,7 +64,7 @@ Appearance Materials::fluid(const SurfaceHit& hit, const Vec3f& rayDirection, fl
   appearance.texture = texture_->lookup(point);
   if (!appearance.texture.valid) return appearance;
   appearance.material.albedo = appearance.texture.colour;
-  appearance.emission = appearance.texture.emission;
+  appearance.emission = emission_.at(appearance.texture);
   if (appearance.texture.roughness >= 0.0f) appearance.material.roughness = appearance.texture.roughness;
   return appearance;
 }

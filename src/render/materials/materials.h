@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/geometry/scene.h"
+#include "render/materials/emission.h"
 #include "render/materials/material.h"
 #include "render/render_options.h"
 #include "texturing/texture_field.h"
@@ -28,13 +29,14 @@ class Materials {
   ///                    4
   Appearance at(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
   /// Whether anything may give off light.
-  bool emits() const { return texture_ != nullptr; }
+  bool emits() const { return emission_.any(); }
 
  private:
   Appearance fluid(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
 
   const TextureField* texture_;
   GroundOptions groundOptions_;
+  Emission emission_;
   Material fluid_, ground_, groundChecker_;
   std::vector<Material> obstacles_;
 };

@@ -17,6 +17,7 @@ class Ggx {
  public:
   /// Of a surface that counts as smooth: reflections are blurred by a hundredth of a degree.
   static constexpr float smallestWidth = 1e-4f;
+  static constexpr float smallestRoughness = 1e-2f;  ///< its root
 
   /// @param width  of their slopes, alpha in the papers; clamped to [smallestWidth, 1]
   explicit Ggx(float width) : width_(std::clamp(width, smallestWidth, 1.0f)), width2_(width_ * width_) {}

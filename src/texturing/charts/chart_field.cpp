@@ -24,6 +24,10 @@ ChartField::ChartField(std::shared_ptr<const TextureParticles> particles, std::s
   });
 }
 
+TextureMaps ChartField::maps() const {
+  return mapsOf(*exemplar_);
+}
+
 TextureSample ChartField::lookup(const SurfacePoint& point) const {
   TextureSample sample;
   std::array<PointIndex::Neighbour, maxBlended> found;

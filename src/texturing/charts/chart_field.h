@@ -18,8 +18,8 @@ class ChartField : public TextureField {
  public:
   ChartField(std::shared_ptr<const TextureParticles> particles, std::shared_ptr<const Exemplar> exemplar,
              float texelWorld);
+  TextureMaps maps() const override;
   TextureSample lookup(const SurfacePoint& point) const override;
-  bool hasAlpha() const override { return exemplar_->hasAlpha(); }
 
  private:
   NearestParticles nearest_;

@@ -17,6 +17,10 @@ PatchTexture::PatchTexture(std::shared_ptr<const Exemplar> exemplarToShow, Featu
       texelWorld(texel),
       showing(show) {}
 
+TextureMaps ErosionField::maps() const {
+  return mapsOf(*texture_->exemplar);
+}
+
 TextureSample ErosionField::lookup(const SurfacePoint& point) const {
   return texture_->showing == Showing::oldest ? oldest(point) : blended(point);
 }

@@ -34,8 +34,8 @@ class ErosionField : public TextureField {
  public:
   ErosionField(std::shared_ptr<const PatchTexture> texture, std::shared_ptr<const PatchLayers> layers)
       : texture_(std::move(texture)), layers_(std::move(layers)) {}
+  TextureMaps maps() const override;
   TextureSample lookup(const SurfacePoint& point) const override;
-  bool hasAlpha() const override { return texture_->exemplar->hasAlpha(); }
 
  private:
   class Blend;

@@ -25,7 +25,7 @@ class CoordinateField : public TextureField {
                   float texelWorld)
       : nearest_(std::move(particles), texelWorld), exemplar_(std::move(exemplar)) {}
 
-  bool hasAlpha() const override { return exemplar_->hasAlpha(); }
+  TextureMaps maps() const override { return mapsOf(*exemplar_); }
 
   TextureSample lookup(const SurfacePoint& point) const override {
     TextureSample sample;
