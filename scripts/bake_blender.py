@@ -6,6 +6,7 @@
 Writes OUT/<name>.####.vdb, frames from 1, with two grids (half floats, blosc):
     surface  float level set, metres, voxel = half a solver cell, narrow band of 3 voxels
     vel      staggered vec3s, metres per second, solver cells, only near the fluid
+and, for a scene whose solids are no boxes, OUT/<solid>.obj for each.
 World space: metres, z up; the frame rate is in the file metadata and in the final report.
 
 The file is two programs: started by python it launches `blender -b --python <this file> -- ...` in a temporary directory
@@ -14,7 +15,6 @@ and converts what that leaves behind; started by Blender it builds the scene and
 Exit codes: 0 done, 2 usage or missing program, 3 the bake or its data are no good, 4 the result cannot be written.
 """
 import argparse
-import dataclasses
 import gzip
 import os
 import pathlib
@@ -23,13 +23,15 @@ import subprocess
 import sys
 import tempfile
 
+# Blender runs this file without its folder on the path.
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from bake_scenes import SCENES  # noqa: E402
+
 # Mantaflow's clock: a frame is 0.1 * (25 / fps) solver units long, so one second is 2.5 of them.
 SOLVER_UNITS_PER_SECOND = 2.5
 HALF_WIDTH_VOXELS = 3.0
 # `vel` is kept this far outside the surface: trilinear look-ups and one frame of advection beside the fluid still hit data.
 VELOCITY_MARGIN_CELLS = 3.0
-# Metres per second. Far under what the solver resolves (0.01 voxel a frame at usual sizes), and it takes a third off `vel`.
-VELOCITY_STEP = 1 / 256
 
 
 class BakeError(Exception):
@@ -38,103 +40,6 @@ class BakeError(Exception):
     def __init__(self, exitCode, message):
         super().__init__(message)
         self.exitCode = exitCode
-
-
-@dataclasses.dataclass(frozen=True)
-class Box:
-    minWorld: tuple
-    maxWorld: tuple
-
-    def centre(self):
-        return tuple((a + b) / 2 for a, b in zip(self.minWorld, self.maxWorld))
-
-    def size(self):
-        return tuple(b - a for a, b in zip(self.minWorld, self.maxWorld))
-
-
-@dataclasses.dataclass(frozen=True)
-class Scene:
-    """What the converter must know about a scene; everything else is the builder's business."""
-
-    build: object  # function(scene): called inside Blender, returns the domain object
-    domain: Box  # metres; sides that are whole numbers of cells keep obstacle and fluid exactly aligned
-    obstacles: tuple  # of Box, metres
-    bakedFrames: int
-    keptFrames: int
-    fps: int
-
-
-def buildDamBreak(scene):
-    """A column across the whole tank collapses, runs around and over a box and up the far wall."""
-    import bpy
-
-    # Half of earth's gravity: the 2 m tank moves like a 4 m one, slow enough for a surface to be followed by eye.
-    bpy.context.scene.gravity = (0, 0, -9.81 / 2)
-    domain = addDomain(scene)
-    settings = domain.modifiers["Fluid"].domain_settings
-    # A touch of PIC damps the spray: broad sheets are what a texture needs.
-    settings.flip_ratio = 0.9
-    settings.mesh_scale = 2
-    settings.mesh_particle_radius = 2.0
-    settings.mesh_smoothen_pos = 2
-    settings.mesh_smoothen_neg = 2
-
-    # Reaches beyond back and sides, so that the fluid touches those walls from the start and only its front edge is free.
-    column = addBox("column", Box((-1.2, -0.7, -0.2), (-0.42, 0.7, 0.66)), bevelWorld=0.10)
-    flow = addFluidModifier(column, "FLOW").flow_settings
-    flow.flow_type = "LIQUID"
-    flow.flow_behavior = "GEOMETRY"
-
-    for index, box in enumerate(scene.obstacles):
-        effector = addFluidModifier(addBox(f"obstacle{index}", box), "EFFECTOR").effector_settings
-        effector.effector_type = "COLLISION"
-    return domain
-
-
-SCENES = {
-    "dam_break": Scene(
-        build=buildDamBreak,
-        domain=Box((-1.0, -0.5, 0.0), (1.0, 0.5, 1.0)),
-        obstacles=(Box((0.0, -0.2, 0.0), (0.25, 0.2, 0.16)),),
-        bakedFrames=32,
-        keptFrames=28,
-        fps=24,
-    ),
-}
-
-
-def addBox(name, box, bevelWorld=0.0):
-    import bpy
-
-    bpy.ops.mesh.primitive_cube_add(size=1, location=box.centre())
-    thing = bpy.context.object
-    thing.name = name
-    thing.scale = box.size()
-    # Mantaflow reads sizes from the mesh, and a bevel on a scaled object would be as skewed as its scale.
-    bpy.ops.object.transform_apply(location=False, rotation=False, scale=True)
-    if bevelWorld > 0:
-        bevel = thing.modifiers.new("Bevel", "BEVEL")
-        bevel.width = bevelWorld
-        bevel.segments = 6
-        bpy.ops.object.modifier_apply(modifier="Bevel")
-    return thing
-
-
-def addFluidModifier(thing, kind):
-    modifier = thing.modifiers.new("Fluid", "FLUID")
-    modifier.fluid_type = kind
-    return modifier
-
-
-def addDomain(scene):
-    settings = addFluidModifier(addBox("domain", scene.domain), "DOMAIN").domain_settings
-    settings.domain_type = "LIQUID"
-    settings.use_mesh = True
-    settings.use_adaptive_timesteps = True
-    settings.cfl_condition = 2.0
-    settings.timesteps_min = 2
-    settings.timesteps_max = 8
-    return settings.id_data
 
 
 def bakeInsideBlender(arguments):
@@ -260,7 +165,7 @@ def makeVelocity(scene, dataPath, surface, resolution):
     if not np.isfinite(values[keep]).all():
         raise BakeError(3, f"{dataPath.name}: velocity: got a value that is not finite; bake again at another resolution")
     # Adding 0 turns -0 into 0, which sparse storage can drop.
-    values = np.where(keep[..., None], np.round(values / VELOCITY_STEP) * VELOCITY_STEP, 0).astype(np.float32) + np.float32(0)
+    values = np.where(keep[..., None], np.round(values / scene.velocityStep) * scene.velocityStep, 0).astype(np.float32) + np.float32(0)
 
     velocity = vdb.Vec3SGrid()
     velocity.copyFromArray(values, ijk=tuple(int(v) for v in low))
@@ -275,20 +180,21 @@ def makeVelocity(scene, dataPath, surface, resolution):
 
 
 def convert(scene, name, cache, resolution, staging):
-    """Converts frames 1..keptFrames into `staging`; returns their paths."""
+    """Converts the kept frames into `staging`, numbered from 1; returns their paths."""
     import pyopenvdb as vdb
 
     cell, _ = worldFromGrid(scene, resolution)
     paths = []
     for frame in range(1, scene.keptFrames + 1):
-        meshPath = cache / "mesh" / f"fluid_mesh_{frame:04d}.bobj.gz"
-        dataPath = cache / "data" / f"fluid_data_{frame:04d}.vdb"
+        baked = scene.skippedFrames + frame
+        meshPath = cache / "mesh" / f"fluid_mesh_{baked:04d}.bobj.gz"
+        dataPath = cache / "data" / f"fluid_data_{baked:04d}.vdb"
         for path in (meshPath, dataPath):
             if not path.is_file():
-                raise BakeError(3, f"{name}: frame {frame}: got no {path.name} from Blender, expected one per frame; try another --resolution")
+                raise BakeError(3, f"{name}: frame {baked}: got no {path.name} from Blender, expected one per frame; try another --resolution")
         surface = makeSurface(scene, meshPath, cell)
         if surface.activeVoxelCount() == 0:
-            raise BakeError(3, f"{name}: frame {frame}: got an empty fluid surface; raise --resolution")
+            raise BakeError(3, f"{name}: frame {baked}: got an empty fluid surface; raise --resolution")
         velocity = makeVelocity(scene, dataPath, surface, resolution)
         path = staging / f"{name}.{frame:04d}.vdb"
         vdb.write(str(path), grids=[surface, velocity], metadata={"fps": float(scene.fps), "unit": "metre", "frame": frame})
@@ -401,12 +307,22 @@ def report(scene, name, resolution, paths):
         raise BakeError(3, f"{name}: velocity check: got s = {s:.3f}, expected 1.00 +- 0.05; nothing was written")
 
 
+def writeObj(path, mesh):
+    """Wavefront OBJ, metres, z up; rounded to tenths of a millimetre, which a solver cell is hundreds of."""
+    lines = [f"v {x:.4f} {y:.4f} {z:.4f}" for x, y, z in mesh.points]
+    lines += [f"vn {x:.3f} {y:.3f} {z:.3f}" for x, y, z in mesh.normals]
+    for face in mesh.faces:
+        smooth = max(face) < len(mesh.normals)
+        lines.append("f " + " ".join(f"{v + 1}//{v + 1}" if smooth else f"{v + 1}" for v in face))
+    path.write_text("\n".join(lines) + "\n")
+
+
 def publish(paths, out, name):
-    """Replaces the sequence in `out`: every file is copied beside its target and renamed, then older extra frames go."""
+    """Replaces what is in `out`: every file is copied beside its target and renamed, then older extra frames go."""
     try:
         out.mkdir(parents=True, exist_ok=True)
         for path in paths:
-            temporary = out / f"{path.stem}.tmp.{os.getpid()}.vdb"
+            temporary = out / f"{path.stem}.tmp.{os.getpid()}{path.suffix}"
             try:
                 shutil.copyfile(path, temporary)
                 os.replace(temporary, out / path.name)
@@ -473,6 +389,9 @@ def main():
         staging.mkdir()
         paths = convert(scene, arguments.scene, cache, arguments.resolution, staging)
         report(scene, arguments.scene, arguments.resolution, paths)
+        for name, make in scene.meshes.items():
+            paths.append(staging / f"{name}.obj")
+            writeObj(paths[-1], make())
         publish(paths, arguments.out, arguments.scene)
 
 

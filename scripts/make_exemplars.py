@@ -3,8 +3,8 @@
 
     scripts/make_exemplars.py [--out scenes/exemplars] [names...]
 
-Writes <name>.png (8-bit sRGB) and, where there is relief, <name>_height.png (16-bit grey, 0 lowest to 65535 highest). The same
-version of this script always draws the same pictures: every exemplar has its own fixed seed.
+Writes <name>.png (8-bit sRGB) and, where there is relief, <name>_height.png (16-bit grey, 0 lowest to 65535 highest) and, where
+something glows, <name>_emission.png (8-bit sRGB, black where nothing does). The same version of this script always draws the same pictures: every exemplar has its own fixed seed.
 
 Each exemplar is drawn in linear light on a grid three times as fine as its picture and box-filtered down; the tools for that
 and the units are in exemplar_drawing.py.
@@ -49,7 +49,7 @@ from exemplar_drawing import (
 MARGIN = 16  # pixels drawn beyond each edge and cropped, so that what the edge cuts has no rim there
 
 
-# Each exemplar function returns the linear picture and its height (or None), both on the fine grid.
+# Each exemplar function returns the linear picture, its height (or None) and, if it glows, its emission, all on the fine grid.
 
 
 def pebbles(rng, size):
@@ -109,7 +109,8 @@ def lavaCrust(rng, size):
     picture = np.where(plate[..., None], picture, fire)
     # Rims catch the glow of the crack beside them.
     glow = gaussian_filter(np.where(plate, 0, heat**2), 1.8 * FINE)
-    return picture + colour("#ff4a08") * (0.9 * glow * plate)[..., None], height
+    # The glow on the rims is the cracks' light on them and no light of their own.
+    return picture + colour("#ff4a08") * (0.9 * glow * plate)[..., None], height, fire * ~plate[..., None]
 
 
 def foam(rng, size):
@@ -344,6 +345,53 @@ def battal(rng, size):
     return picture * (1 + 0.05 * noise(rng, size, 30) + 0.025 * noise(rng, size, 2.5))[..., None], None
 
 
+def scales(rng, size):
+    """A reptile's scales: shields that lie over each other like tiles, each with a rim and a low keel."""
+    samples = size * FINE
+    centres = scatter(rng, size, 17.5, 6)
+    # The tail end first, so that the tip of every scale covers the heads of those behind it.
+    centres = centres[np.argsort(-centres[:, 1])]
+    bend, tint, moss = noise(rng, size, 110), noise(rng, size, 60), noise(rng, size, 90)
+    speckle = fractal(rng, size, 4.5, 3)
+    kinds = palette("#2c3d1c", "#485f24", "#6b7a33", "#8a8042", "#77602f", "#4a3a22")
+    albedo = np.tile(colour("#15140c"), (samples, samples, 1))
+    height = np.zeros((samples, samples))
+    reach = int(17 * FINE)
+    for centre in centres:
+        column, row = (centre * FINE).astype(int)
+        at = tuple(np.clip((row, column), 0, samples - 1))
+        turn = 0.22 * bend[at] + rng.normal(0, 0.07)
+        half = np.array([12.6, 10.4]) * rng.normal(1, 0.05, 2).clip(0.88, 1.12)
+        shade = np.clip(0.46 + 0.19 * tint[at] + rng.normal(0, 0.10), 0, 1)
+        tone = ramp(kinds, shade) * rng.normal(1.0, 0.11) * rng.normal(1, 0.02, 3)
+        window = np.s_[max(row - reach, 0) : max(row + reach, 0), max(column - reach, 0) : max(column + reach, 0)]
+        y, x = np.indices(albedo[window].shape[:2])
+        px = (x + window[1].start + 0.5) / FINE - centre[0]
+        py = (y + window[0].start + 0.5) / FINE - centre[1]
+        # u from head to tip, v across; the tip is narrower than the shoulders.
+        u, v = py * np.cos(turn) + px * np.sin(turn), px * np.cos(turn) - py * np.sin(turn)
+        width = half[1] * (1 - 0.20 * smoothstep(-2, half[0], u))
+        p = 2.3
+        outline = (np.abs(u / half[0]) ** p + np.abs(v / width) ** p) ** (1 / p)
+        edge = (1 - outline) * 11.5
+        mask = edge > 0
+        along = np.clip((u / half[0] + 1) / 2, 0, 1)
+        keel = np.exp(-((v / 1.5) ** 2)) * smoothstep(0.25, 0.6, along) * smoothstep(0.5, 4.5, edge)
+        lip = np.exp(-(((edge - 1.5) / 0.8) ** 2))
+        dome = 1 - np.exp(-np.maximum(edge, 0) / 2.6)
+        rise = 5.2 * along * (0.35 + 0.65 * dome) + 2.2 * dome + 0.5 * lip + 0.9 * keel
+        body = tone * (0.80 + 0.30 * smoothstep(0.1, 0.75, along) + 0.10 * speckle[window])[..., None]
+        body = mix(body, tone * 1.45 + 0.03, 0.45 * keel)
+        body = mix(body, colour("#d3c684") * (0.8 + 0.4 * shade), 0.62 * lip * smoothstep(0.35, 0.7, along))
+        body = body * (0.22 + 0.78 * smoothstep(-0.2, 1.2, edge))[..., None]
+        albedo[window] = np.where(mask[..., None], body, albedo[window])
+        height[window] = np.where(mask, rise, height[window])
+    albedo = albedo * (1 + 0.07 * moss + 0.04 * noise(rng, size, 2.0))[..., None]
+    height = gaussian_filter(height, 0.35 * FINE) + 0.10 * speckle
+    picture = lit(albedo, height, ambient=0.36, hollow=6, depth=0.9)
+    return picture + (0.20 * highlight(normals(gaussian_filter(height, 0.9 * FINE)), 22))[..., None], height
+
+
 EXEMPLARS = {
     "pebbles": (pebbles, 384),
     "lava_crust": (lavaCrust, 256),
@@ -354,6 +402,7 @@ EXEMPLARS = {
     "leaf_litter": (leafLitter, 256),
     "squares": (squares, 256),
     "battal": (battal, 256),
+    "scales": (scales, 256),
 }
 
 
@@ -382,8 +431,9 @@ def writePng(path, values):
 
 def draw(name, out):
     function, size = EXEMPLARS[name]
-    picture, height = function(np.random.default_rng(zlib.crc32(name.encode())), size + 2 * MARGIN)
-    writePng(out / f"{name}.png", np.round(toSrgb(coarse(shoulder(picture))) * 255).astype(np.uint8))
+    picture, height, *emission = function(np.random.default_rng(zlib.crc32(name.encode())), size + 2 * MARGIN)
+    for suffix, light in zip(("", "_emission"), (picture, *emission)):
+        writePng(out / f"{name}{suffix}.png", np.round(toSrgb(coarse(shoulder(light))) * 255).astype(np.uint8))
     if height is not None:
         height = coarse(height)
         height = (height - height.min()) / (height.max() - height.min())
