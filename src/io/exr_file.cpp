@@ -100,7 +100,8 @@ void setLevel(Imf::Header& header, float level) {
   header.insert("dwaCompressionLevel", Imf::FloatAttribute(level));
 }
 
-/// OpenEXR compresses on threads of its own. Blocks do not depend on each other, so the bytes are those of one thread.
+/// OpenEXR compresses on threads of its own. Blocks do not depend on each other, so the bytes are those of
+/// one thread.
 void matchThreads() {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
@@ -187,7 +188,8 @@ std::vector<char> encode(const std::string& name, const ChannelImage& image, con
   if (!isLossy(asked) || !has(ChannelType::half)) {
     parts.push_back(maker.make("", isLossy(asked) ? Imf::ZIP_COMPRESSION : asked, true, true));
   } else {
-    // DWA tells colour from data by the last part of a channel's name: of P.X, P.Y and P.Z it would ruin P.Y, as luminance.
+    // DWA tells colour from data by the last part of a channel's name: of P.X, P.Y and P.Z it would ruin P.Y,
+    // as luminance.
     const bool hasData = has(ChannelType::float32);
     parts.push_back(maker.make(hasData ? "colour" : "", asked, true, false));
     setLevel(parts.back().header, static_cast<float>(options.dwa_level));
@@ -252,7 +254,8 @@ Imath::Box2i windowOf(const std::filesystem::path& path, const Imf::Header& head
 }
 
 /// Appends the channels of one part to those of the parts before it.
-void readPart(const std::filesystem::path& path, Imf::MultiPartInputFile& file, int number, ChannelImage& image) {
+void readPart(const std::filesystem::path& path, Imf::MultiPartInputFile& file, int number,
+              ChannelImage& image) {
   if (!file.partComplete(number)) refuse(path, "a file without all of its scan lines");
   Imf::InputPart part(file, number);
   const Imath::Box2i window = windowOf(path, part.header());
@@ -289,9 +292,13 @@ ChannelImage decode(const std::filesystem::path& path) {
 
 }  // namespace
 
-bool isLossy(const OutputOptions& options) { return isLossy(compressionOf(options)); }
+bool isLossy(const OutputOptions& options) {
+  return isLossy(compressionOf(options));
+}
 
-float storedValue(float value, ChannelType type) { return type == ChannelType::half ? float(toHalf(value)) : value; }
+float storedValue(float value, ChannelType type) {
+  return type == ChannelType::half ? float(toHalf(value)) : value;
+}
 
 void writeExr(const std::filesystem::path& path, const ChannelImage& image, const OutputOptions& options) {
   if (image.width < 1 || image.height < 1)

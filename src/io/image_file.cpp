@@ -49,8 +49,8 @@ std::vector<unsigned char> encodePng(const std::filesystem::path& path, const Di
   // A quarter of the time of the usual level 6, for files a tenth larger.
   spec.attribute("png:compressionLevel", 3);
   if (!description.empty()) spec.attribute("ImageDescription", description);
-  if (!output || !output->open(name, spec) || !output->write_image(OIIO::TypeDesc::UINT8, image.data.data()) ||
-      !output->close())
+  if (!output || !output->open(name, spec) ||
+      !output->write_image(OIIO::TypeDesc::UINT8, image.data.data()) || !output->close())
     throw OutputError(fmt::format("{}: cannot be encoded as PNG: got \"{}\"", path.string(),
                                   output ? output->geterror() : OIIO::geterror()));
   return bytes;
@@ -98,7 +98,8 @@ void writePng(const std::filesystem::path& path, const DisplayImage& image, cons
   const std::size_t values = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
                              static_cast<std::size_t>(image.channels);
   if (image.data.size() != values)
-    throw BugError(fmt::format("writePng: {}: got {} values, expected {}", path.string(), image.data.size(), values));
+    throw BugError(
+        fmt::format("writePng: {}: got {} values, expected {}", path.string(), image.data.size(), values));
   const std::vector<unsigned char> bytes = encodePng(path, image, description);
   writeTextAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }

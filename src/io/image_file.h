@@ -31,7 +31,8 @@ struct DisplayImage {
 /// A PNG, atomically; same image and description, same bytes.
 /// @param description  stored in it for pngDescription
 /// @throw OutputError; BugError if the data does not fit the size
-void writePng(const std::filesystem::path& path, const DisplayImage& image, const std::string& description = {});
+void writePng(const std::filesystem::path& path, const DisplayImage& image,
+              const std::string& description = {});
 
 /// The text writePng was given; empty without one and if the file cannot be opened as PNG.
 std::string pngDescription(const std::filesystem::path& path);

@@ -30,7 +30,9 @@ Planes planesOf(const ChannelImage& image, bool transparent) {
 }
 
 /// What a reader of the picture's file finds: a preview made again from it has the same bytes.
-float valueOf(const ChannelImage::Channel& plane, std::size_t pixel) { return storedValue(plane.data[pixel], plane.type); }
+float valueOf(const ChannelImage::Channel& plane, std::size_t pixel) {
+  return storedValue(plane.data[pixel], plane.type);
+}
 
 unsigned char toByte(float value) {
   return static_cast<unsigned char>(255.0f * (value > 0.0f ? std::min(value, 1.0f) : 0.0f) + 0.5f);

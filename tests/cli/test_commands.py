@@ -7,7 +7,7 @@ from support import *
 
 def test_version_help_and_methods(folder):
     assert ebru("--version").stdout.startswith("ebru ")
-    for command in ("render", "synth", "export", "inspect"):
+    for command in ("render", "synth", "preview", "export", "inspect"):
         assert "--set" in ebru(command, "--help").stdout
     methods = ebru("methods").stdout
     assert all(name in methods for name in ("particles", "synthesis", "quilt", "plain"))

@@ -1,6 +1,7 @@
 #include <ImfFloatAttribute.h>
 #include <ImfHeader.h>
 #include <ImfMultiPartInputFile.h>
+#include <ImfThreading.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -157,6 +158,7 @@ TEST_F(ExrCompression, ThreadsDoNotChangeTheBytes) {
     for (const int threads : {1, 2, 5}) {
       const ThreadLimit limit(threads);
       writeExr(folder_ / "a.exr", picture(), compressed(name));
+      EXPECT_EQ(Imf::globalThreadCount(), threads > 1 ? threads : 0);
       files.push_back(bytesOf(folder_ / "a.exr"));
     }
     EXPECT_EQ(files[0], files[1]) << name;
