@@ -115,8 +115,8 @@ void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hi
                      found.barycentric.y()};
   hit.position = corners.interpolate(corners.positions);
   const Vec3f geometric = (corners.positions[1] - corners.positions[0])
-                        .cross(corners.positions[2] - corners.positions[0])
-                        .stableNormalized();
+                              .cross(corners.positions[2] - corners.positions[0])
+                              .stableNormalized();
   corners.normals.fill(geometric);
   hit.normal = geometric;
   if (mesh.normals.size() == mesh.positions.size()) {
