@@ -82,7 +82,7 @@ struct Renderer::Impl {
     if (displaced.longestEdge > 1.0f && input.warn)
       input.warn(fmt::format(
           "frame {}: material.displacement_triangles: got {}, enough for edges of {:.2g} times the "
-          "width of a pixel or texel, expected 1; set more where memory allows, or see less detail",
+          "width of a pixel or half a texel, expected 1; set more where memory allows, or see less detail",
           input.current->frame, material.displacement_triangles, displaced.longestEdge));
     return displaced.geometry(input.current->mesh);
   }

@@ -107,7 +107,8 @@ TEST(Displacement, AWaveIsWhereItsFormulaSaysAndSoIsItsNormal) {
 }
 
 // What is seen is fine: projected, no edge is longer than a pixel. What lies behind the camera or far beside
-// the picture is as it was. With a texel of 4 px no edge is shorter than a part of it that halving explains.
+// the picture is as it was. Half a texel of 0.1 m asks for no more than 2 * (2 / 0.05)^2 triangles, but
+// halving overshoots by up to two either way.
 TEST(Displacement, EdgesAreUnderAPixelOrATexelWhereTheyAreSeen) {
   CameraOptions options;
   options.position = {0.0, -0.4, 0.3};
@@ -140,9 +141,9 @@ TEST(Displacement, EdgesAreUnderAPixelOrATexelWhereTheyAreSeen) {
   EXPECT_GT(seen, 10000);
   EXPECT_GT(beyond, 10);
   EXPECT_LE(pixels.longestEdge, 1.0f);
-  const DisplacedSurface texels = displace(frame, flat, camera, {0.02f, 0.5f, 0.05f, 1'000'000});
+  const DisplacedSurface texels = displace(frame, flat, camera, {0.02f, 0.5f, 0.1f, 1'000'000});
   EXPECT_LE(texels.longestEdge, 1.0f);
-  EXPECT_LT(texels.mesh.triangles.size(), 20000u);
+  EXPECT_LT(texels.mesh.triangles.size(), 4u * 3200u);
 }
 
 // The barycentrics that the texture is asked with are those of the frame's own triangle.
@@ -179,9 +180,9 @@ TEST(Displacement, TheBudgetIsKeptAndSaid) {
   warning.clear();
   render(options, frame, texture, &warning);
   EXPECT_EQ(warning, "");
-  // Texels as large as the mesh's own edges ask for no more triangles than there are.
+  // Half a texel as long as the mesh's own edges asks for no more triangles than there are.
   options.material.displacement_triangles = 0;
-  render(options, frame, texture, &warning, 1.0f);
+  render(options, frame, texture, &warning, 2.0f);
   EXPECT_EQ(warning, "");
 }
 

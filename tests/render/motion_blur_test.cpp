@@ -113,7 +113,7 @@ SceneOptions aslant() {
   options.camera.shutter = {-0.25, 0.25};
   options.render.spp = 4;
   options.ground = {.enabled = true, .height = -0.5};
-  options.obstacles = {{.position = {-0.8, 0.3, -0.3}, .size = {0.5, 0.5, 0.5}, .material = {}}};
+  options.obstacles = {{.position = {-0.8, 0.3, -0.3}, .size = {0.5, 0.5, 0.5}, .file = {}, .material = {}}};
   options.lights = {test::sun(0.3, -0.5, 0.8), test::sky(0.5)};
   return options;
 }

@@ -100,7 +100,7 @@ TEST(Motion, ACameraPanIsThatManyPixelsEverywhere) {
   SceneOptions options = topView(100, 100, 2.0);
   addKeys(options.camera, Vec3d(-0.06, 0.0, 0.0));
   options.ground = {.enabled = true, .height = -1.0};
-  options.obstacles = {{.position = {0.6, 0.6, 0.0}, .size = {0.5, 0.5, 0.5}, .material = {}}};
+  options.obstacles = {{.position = {0.6, 0.6, 0.0}, .size = {0.5, 0.5, 0.5}, .file = {}, .material = {}}};
   const FluidFrame frame = makeFrame(makeSphere(Vec3f::Zero(), 0.4f));
   const ChannelImage image = renderThree(options, frame);
   for (int y = 0; y < 100; ++y)

@@ -13,12 +13,15 @@ namespace {
 
 constexpr std::size_t grain = 1024;
 
+/// Heights are interpolated smoothly between texels; longer edges would be seen in highlights close up.
+constexpr float edgeTexels = 0.5f;
+
 /// Measures edges against what the picture and the texture can show.
 class VisibleEdges {
  public:
   /// @param reachWorld  how far displacement may move a vertex
   VisibleEdges(const Camera& camera, float texelWorld, float reachWorld)
-      : camera_(camera), texelWorld_(texelWorld), reachWorld_(reachWorld) {
+      : camera_(camera), smallestWorld_(edgeTexels * texelWorld), reachWorld_(reachWorld) {
     constexpr double marginOfSize = 0.05;
     const double width = camera.width(), height = camera.height();
     const double margin = marginOfSize * std::max(width, height) + 2.0;
@@ -49,7 +52,7 @@ class VisibleEdges {
     if (depth < -radius) return 0.0f;
     constexpr float nearestWorld = 0.01f;
     const float pixel = pixelWorld_ + pixelPerMetre_ * std::max(nearestWorld, depth - radius);
-    return length / std::max(pixel, texelWorld_);
+    return length / std::max(pixel, smallestWorld_);
   }
 
  private:
@@ -57,7 +60,7 @@ class VisibleEdges {
     Vec3f point, inwards;
   };
   const Camera& camera_;
-  float texelWorld_, reachWorld_;
+  float smallestWorld_, reachWorld_;
   float pixelWorld_, pixelPerMetre_;
   std::array<Side, 4> sides_;
 };

@@ -58,14 +58,17 @@ void curveMiddle(const Vec3f& a, const Vec3f& normalA, const Vec3f& b, const Vec
   normal = normalA + normalB;
   Vec3f tangentA, tangentB;
   if (normalA.dot(normalB) >= smoothCosine && edgeTangent(edge, lengthWorld, normalA, tangentA) &&
-      edgeTangent(edge, lengthWorld, normalB, tangentB)) {
+      edgeTangent(edge, lengthWorld, normalB, tangentB))
     middle += 0.125f * (tangentA - tangentB);
-    const Vec3f tangent = 1.5f * edge - 0.25f * (tangentA + tangentB);
-    const float square = tangent.squaredNorm();
-    if (square > 0.0f) normal -= (normal.dot(tangent) / square) * tangent;
-  }
   const float length = normal.norm();
   normal = length > 1e-3f ? Vec3f(normal / length) : normalA;
+}
+
+/// `resize` without room to spare.
+template <class Item>
+void grow(std::vector<Item>& items, std::size_t count) {
+  items.reserve(count);
+  items.resize(count);
 }
 
 class Refiner {
@@ -171,14 +174,14 @@ class Refiner {
       offset[t] = static_cast<Index>(pieces);
       for (const Index e : edgesOf_[t]) pieces += middleOf[e] != none;
     }
-    mesh_.positions.resize(vertexCount + middles);
-    mesh_.normals.resize(vertexCount + middles);
-    mesh_.triangles.resize(triangleCount + pieces);
-    edgesOf_.resize(triangleCount + pieces);
-    baseTriangles_.resize(triangleCount + pieces);
-    edges_.resize(edgeCount + middles +
-                  pieces);  // a triangle has as many new edges within as it has new pieces
-    measures_.resize(edges_.size());
+    grow(mesh_.positions, vertexCount + middles);
+    grow(mesh_.normals, vertexCount + middles);
+    grow(mesh_.triangles, triangleCount + pieces);
+    grow(edgesOf_, triangleCount + pieces);
+    grow(baseTriangles_, triangleCount + pieces);
+    // A triangle has as many new edges within as it has new pieces.
+    grow(edges_, edgeCount + middles + pieces);
+    grow(measures_, edges_.size());
     parallelFor(edgeCount, grain, [&](std::size_t e) {
       if (middleOf[e] != none) halve(e, middleOf[e], edgeCount + (middleOf[e] - vertexCount));
     });

@@ -27,10 +27,10 @@ struct RefinedMesh {
 ///
 /// A new vertex is the middle of Hermite's cubic over its edge, whose tangents at the ends are the edge laid
 /// into the planes of their normals [as Vlachos et al. 2001, "Curved PN Triangles", eq. 2] and as long as a
-/// circle's arc wants them; its normal is the ends' mean, made square to the curve. Vertices of a sphere with
-/// its normals are refined to vertices of that sphere. On a flat edge it is the edge's middle, and so it is
-/// where the normals are more than 60 degrees apart, or the edge that far out of their planes. The original
-/// vertices stay as they are.
+/// circle's arc wants them; its normal is the ends' mean, so that the refined mesh is shaded as the original
+/// is. Vertices of a sphere with its normals are refined to vertices of that sphere. On a flat edge it is the
+/// edge's middle, and so it is where the normals are more than 60 degrees apart, or the edge that far out of
+/// their planes. The original vertices stay as they are.
 ///
 /// @param mesh  every triangle names vertices that exist. Normals that are missing or vanish are made from
 /// the

@@ -136,9 +136,9 @@ void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hi
   corners.weights = {1.0f - found.barycentric.x() - found.barycentric.y(), found.barycentric.x(),
                      found.barycentric.y()};
   hit.position = corners.interpolate(corners.positions);
-  Vec3f geometric = (corners.positions[1] - corners.positions[0])
-                        .cross(corners.positions[2] - corners.positions[0])
-                        .stableNormalized();
+  const Vec3f geometric = (corners.positions[1] - corners.positions[0])
+                              .cross(corners.positions[2] - corners.positions[0])
+                              .stableNormalized();
   corners.normals.fill(geometric);
   hit.normal = geometric;
   if (mesh.normals.size() == mesh.positions.size()) {
@@ -148,10 +148,10 @@ void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hi
     if (part.atOpen) turnWithTriangle(mesh.positions, triangle, corners.positions, geometric, normals);
     const Vec3f smooth = corners.interpolate(normals);
     const float length = smooth.norm();
-    if (length > 1e-6f && std::isfinite(length)) {
+    // Where the mesh folds more sharply than its normals can follow, they would turn the surface inside out.
+    if (length > 1e-6f && std::isfinite(length) && smooth.dot(geometric) > 0.0f) {
       hit.normal = smooth / length;
       corners.normals = normals;
-      if (geometric.dot(hit.normal) < 0.0f) geometric = -geometric;
     }
   }
   hit.inside = geometric.dot(ray.direction) > 0.0f;

@@ -36,7 +36,7 @@ struct SurfaceHit {
 class Scene {
  public:
   /// Keeps references to the meshes and the fluid's geometry. Where the mesh does not have one normal per
-  /// vertex, or an interpolated normal vanishes, the triangle's own normal is used.
+  /// vertex, or an interpolated normal vanishes or points into the body, the triangle's own normal is used.
   /// @param source  of the fluid, for messages
   /// @param holes  asked which hits on the fluid count; null: all
   /// @throw InputError if a triangle of the fluid names a vertex that does not exist

@@ -54,10 +54,8 @@ OptionFields textureFields(MaterialOptions& o) {
   return {
       optionField("displacement", &o.displacement, "m",
                   "How much farther out of the fluid a height of 1 in texture.height lies than one of 0; 0 "
-                  "leaves the "
-                  "surface as it is. The surface is refined to the width of a pixel or of a texel, the "
-                  "larger of them "
-                  "[Cook 1984]."),
+                  "leaves the surface as it is. The surface is refined to the width of a pixel or of half a "
+                  "texel, the larger of them [Cook 1984]."),
       optionField("displacement_zero", &o.displacement_zero, "",
                   "The height that stays on the fluid's surface."),
       optionField(
