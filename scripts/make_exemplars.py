@@ -82,6 +82,22 @@ def pebbles(rng, size):
     return picture + (cover * shine * (1 + 0.10 * noise(rng, size, 2.2)))[..., None], height
 
 
+def chocolate(rng, size):
+    """Lumps of dark and milk chocolate in a dark mass. Not shaded: relief and glaze are the renderer's."""
+    x, y = warped(rng, size, 18, 1.2)
+    owner, edge = cells(scatter(rng, size, 22, 3), x, y)
+    lump = rounded(edge > 1.0, 4.5)
+    height = 7.0 * (1 - np.exp(-inflate(lump) / 4.5)) + 0.10 * fractal(rng, size, 9, 3)
+
+    count = owner.max() + 1
+    kinds = palette("#3a1f12", "#4b2a19", "#2b160d", "#6b3f25", "#8a5a38", "#55301c")
+    tone = kinds[rng.choice(len(kinds), count, p=[0.26, 0.22, 0.16, 0.16, 0.08, 0.12])]
+    tone = tone * rng.normal(1, 0.10, (count, 1)).clip(0.75, 1.3)
+    albedo = tone[owner] * (1 + 0.08 * fractal(rng, size, 10, 3) + 0.03 * noise(rng, size, 2.2))[..., None]
+    mass = colour("#1d0e08") * (1 + 0.15 * fractal(rng, size, 6, 2))[..., None]
+    return mix(mass, albedo, smoothstep(0, 2.6, inside(lump))), height
+
+
 def lavaCrust(rng, size):
     """Dark plates of crust, drifting apart over glowing lava."""
     x, y = warped(rng, size, 30, 2.2)
@@ -403,6 +419,7 @@ EXEMPLARS = {
     "squares": (squares, 256),
     "battal": (battal, 256),
     "scales": (scales, 256),
+    "chocolate": (chocolate, 256),
 }
 
 

@@ -8,7 +8,7 @@ A case is a folder with `args` (the shot, relative to the folder, and arguments 
 (see tests/tools/compare_exr.cpp) and a README.md. A missing reference and a picture without one both fail.
 
 A case with `reference_args` instead of `tolerances` is of light: its references are rendered with those arguments too (many
-samples, another seed), and R, G, B are compared by a z-test (z_test.py) instead of pixel by pixel.
+samples), and R, G, B are compared by a z-test (z_test.py) instead of pixel by pixel.
 """
 
 import argparse
