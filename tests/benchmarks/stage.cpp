@@ -19,7 +19,7 @@ namespace ebru::bench {
 namespace {
 
 std::filesystem::path scenes() {
-  return std::filesystem::path(__FILE__).parent_path() / "../../scenes";
+  return std::filesystem::path(EBRU_SOURCE_FOLDER) / "scenes";
 }
 
 std::shared_ptr<const FluidFrame> load(int frame) {

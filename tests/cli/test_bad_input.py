@@ -124,7 +124,7 @@ def test_maps_that_do_not_fit_the_exemplars(folder):
                     arguments=[*two, "--set", f'texture.{key}=["a.png", "c.png"]'])
         refuses(folder, shot, USAGE, "texture.weight_*", arguments=["--set", "texture.weight_colour=0"])
         refuses(folder, shot, USAGE, "texture.weight_alpha: got -1", arguments=["--set", "texture.weight_alpha=-1"])
-        refuses(folder, shot, USAGE, "texture.exemplar: got [], expected at least one",
+        refuses(folder, shot, USAGE, "texture.exemplar is missing: an example image",
                 arguments=["--set", "texture.exemplar=[]"])
 
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Rows "| `channel` | type | unit | meaning |" of the page's first table of that shape.
 std::vector<std::array<std::string, 4>> documentedChannels() {
-  const auto page = std::filesystem::path(__FILE__).parent_path() / "../../docs/aovs.md";
+  const auto page = std::filesystem::path(EBRU_SOURCE_FOLDER) / "docs/aovs.md";
   std::ifstream file(page);
   std::vector<std::array<std::string, 4>> rows;
   for (std::string line; std::getline(file, line);) {

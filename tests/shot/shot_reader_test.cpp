@@ -125,7 +125,7 @@ TEST_F(ShotReader, AsksForWhatIsMissing) {
   EXPECT_TRUE(says(problemsOf("[texture]\nexemplar = \"a.png\"\n"), "fluid.path is missing"));
   const std::string fluid = "[fluid]\nsource = \"procedural\"\n";
   EXPECT_TRUE(says(problemsOf(fluid), "texture.exemplar is missing"));
-  EXPECT_TRUE(problemsOf(fluid + "[texture]\nmethod = \"plain\"\n").empty());
+  EXPECT_EQ(problemsOf(fluid + "[texture]\nmethod = \"plain\"\n"), "no problem");
 }
 
 TEST_F(ShotReader, GlowNeedsTheMapThatItIsMadeFrom) {

@@ -125,7 +125,8 @@ Vec3f PathIntegrator::lightsSeen(const Ray& ray, const Tail& tail) const {
 Vec3f PathIntegrator::directLight(const Vertex& vertex, const Light& light, const Vec2f& u, float chance) const {
   const LightSample sample = light.sample(vertex.hit.position, u);
   if (!(sample.pdf > 0.0f)) return Vec3f::Zero();
-  const Vec3f scattered = vertex.bsdf.evaluate(sample.towards).cwiseProduct(sample.radiance);
+  const Scattering scattering = vertex.bsdf.scattering(sample.towards);
+  const Vec3f scattered = scattering.value.cwiseProduct(sample.radiance);
   if ((scattered.array() == 0.0f).all()) return Vec3f::Zero();
   Ray shadow;
   shadow.origin = sample.towards.dot(vertex.hit.facing) >= 0.0f ? vertex.hit.originHere : vertex.hit.originBeyond;
@@ -134,7 +135,7 @@ Vec3f PathIntegrator::directLight(const Vertex& vertex, const Light& light, cons
   shadow.farWorld = sample.distanceWorld * (1.0f - 1e-4f);
   if (in_.scene.occluded(shadow)) return Vec3f::Zero();
   const float pdf = sample.pdf * chance;
-  const float weight = sample.isPoint ? 1.0f : powerHeuristic(pdf, vertex.bsdf.pdf(sample.towards));
+  const float weight = sample.isPoint ? 1.0f : powerHeuristic(pdf, scattering.pdf);
   return (weight / pdf) * scattered;
 }
 
