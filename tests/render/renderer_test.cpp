@@ -269,6 +269,9 @@ TEST(Renderer, TrianglesWithoutAreaAreNotSeenAndBadIndicesAreInputErrors) {
 }
 
 TEST(Renderer, ATextureThatIsNotFiniteIsReportedWithItsPixel) {
+#ifdef EBRU_FLOATING_POINT_TRAPS
+  GTEST_SKIP() << "this build ends at the first operation on it";
+#endif
   const PlainTexture texture(Vec3f::Constant(std::numeric_limits<float>::quiet_NaN()));
   try {
     render(topView(8, 8, 2.0), makeFrame(makeBox(Vec3f::Zero(), Vec3f::Ones())), &texture);
