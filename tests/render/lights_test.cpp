@@ -10,8 +10,8 @@
 #include "core/error.h"
 #include "io/exr_file.h"
 #include "light_checks.h"
+#include "lit_ground.h"
 #include "mock_fluid.h"
-#include "render/renderer.h"
 #include "render/sampling.h"
 
 namespace ebru {
@@ -202,14 +202,7 @@ TEST_F(EnvironmentImage, UniformOverAPlaneIsItsAlbedo) {
   }
   writeExr(path_, image);
   options_.intensity = 3.0;
-  SceneOptions scene = test::topView(40, 40, 2.0);
-  scene.lights = {options_};
-  scene.render.spp = 64;
-  scene.ground.enabled = true;
-  scene.ground.material.type = "diffuse";
-  scene.ground.material.colour = {0.8, 0.4, 0.2};
-  const FluidFrame nothing = test::makeFrame({});
-  const ChannelImage picture = Renderer(scene, 1, nullptr).render({&nothing, &nothing, &nothing, nullptr});
+  const ChannelImage picture = test::litGround(options_, Vec3d(0.8, 0.4, 0.2), 40, 2.0);
   double mean = 0.0;
   for (const float value : picture.find("R")->data) {
     EXPECT_NEAR(value, 1.2f, 0.3f * 1.2f);

@@ -4,8 +4,7 @@
 
 #include "core/error.h"
 #include "light_checks.h"
-#include "mock_fluid.h"
-#include "render/renderer.h"
+#include "lit_ground.h"
 
 namespace ebru {
 namespace {
@@ -184,14 +183,7 @@ TEST(QuadLight, WithoutADirectionOrAnAreaIsAUsageError) {
 // A pixel averages 64 stratified samples; the cosine over the light and the pixel's own width spread them by
 // less than 25 percent: 2 percent holds six deviations.
 TEST(QuadLight, LightsAPlaneThroughTheRenderer) {
-  SceneOptions options = test::topView(50, 50, 5.0);
-  options.lights = {quad()};
-  options.render.spp = 64;
-  options.ground.enabled = true;
-  options.ground.material.type = "diffuse";
-  options.ground.material.colour = {0.8, 0.8, 0.8};
-  const FluidFrame nothing = test::makeFrame({});
-  const ChannelImage image = Renderer(options, 1, nullptr).render({&nothing, &nothing, &nothing, nullptr});
+  const ChannelImage image = test::litGround(quad(), Vec3d(0.8, 0.8, 0.8), 50, 5.0);
   for (int y = 5; y < 50; y += 10)
     for (int x = 5; x < 50; x += 10) {
       const Vec3d point((x + 0.5) * 0.1 - 2.5, 2.5 - (y + 0.5) * 0.1, 0.0);

@@ -4,8 +4,7 @@
 
 #include "core/error.h"
 #include "light_checks.h"
-#include "mock_fluid.h"
-#include "render/renderer.h"
+#include "lit_ground.h"
 
 namespace ebru {
 namespace {
@@ -121,14 +120,7 @@ TEST(SphereLight, WithoutARadiusIsAUsageError) {
 // cone, and the pixel's own width): 1.5 percent holds six deviations, the mean over all 25 is five times
 // closer.
 TEST(SphereLight, LightsAPlaneThroughTheRenderer) {
-  SceneOptions options = test::topView(50, 50, 5.0);
-  options.lights = {sphere(0.4)};
-  options.render.spp = 64;
-  options.ground.enabled = true;
-  options.ground.material.type = "diffuse";
-  options.ground.material.colour = {0.8, 0.8, 0.8};
-  const FluidFrame nothing = test::makeFrame({});
-  const ChannelImage image = Renderer(options, 1, nullptr).render({&nothing, &nothing, &nothing, nullptr});
+  const ChannelImage image = test::litGround(sphere(0.4), Vec3d(0.8, 0.8, 0.8), 50, 5.0);
   double ratio = 0.0;
   for (int y = 5; y < 50; y += 10)
     for (int x = 5; x < 50; x += 10) {

@@ -16,13 +16,21 @@
 namespace ebru {
 namespace {
 
-// The calls that differ between versions 3 and 4 of Embree.
 #if RTC_VERSION_MAJOR >= 4
+using QueryContext = RTCRayQueryContext;
+#else
+using QueryContext = RTCIntersectContext;
+#endif
+
+/// What Embree hands through to `filterHit`; the query's own context has to come first.
 struct FilterContext {
-  RTCRayQueryContext context;
+  QueryContext context;
   const HitFilter* filter;
   const Ray* ray;
 };
+
+// The calls that differ between versions 3 and 4 of Embree.
+#if RTC_VERSION_MAJOR >= 4
 void intersectOne(RTCScene scene, FilterContext& context, RTCRayHit& rayHit) {
   rtcInitRayQueryContext(&context.context);
   RTCIntersectArguments arguments;
@@ -30,6 +38,7 @@ void intersectOne(RTCScene scene, FilterContext& context, RTCRayHit& rayHit) {
   arguments.context = &context.context;
   rtcIntersect1(scene, &rayHit, &arguments);
 }
+
 void occludedOne(RTCScene scene, FilterContext& context, RTCRay& ray) {
   rtcInitRayQueryContext(&context.context);
   RTCOccludedArguments arguments;
@@ -38,15 +47,11 @@ void occludedOne(RTCScene scene, FilterContext& context, RTCRay& ray) {
   rtcOccluded1(scene, &ray, &arguments);
 }
 #else
-struct FilterContext {
-  RTCIntersectContext context;
-  const HitFilter* filter;
-  const Ray* ray;
-};
 void intersectOne(RTCScene scene, FilterContext& context, RTCRayHit& rayHit) {
   rtcInitIntersectContext(&context.context);
   rtcIntersect1(scene, &context.context, &rayHit);
 }
+
 void occludedOne(RTCScene scene, FilterContext& context, RTCRay& ray) {
   rtcInitIntersectContext(&context.context);
   rtcOccluded1(scene, &context.context, &ray);
