@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -18,6 +19,10 @@ using Vec3d = Eigen::Vector3d;
 using Mat2f = Eigen::Matrix2f;
 using Mat3f = Eigen::Matrix3f;
 using Mat4d = Eigen::Matrix4d;
+
+inline Vec3d vectorOf(const std::array<double, 3>& components) {
+  return {components[0], components[1], components[2]};
+}
 
 struct Bounds3f {
   Vec3f lower = Vec3f::Constant(std::numeric_limits<float>::infinity());

@@ -11,6 +11,10 @@
 
 namespace ebru {
 
+/// Lengths and amounts of light beyond these, in metres and as radiance, are mistakes: their squares leave
+/// what floats can hold.
+constexpr double mostWorld = 1e9, mostLight = 1e9;
+
 inline OptionField optionField(std::string key, OptionTarget target, std::string unit, std::string help,
                                double lower = -std::numeric_limits<double>::infinity(),
                                double upper = std::numeric_limits<double>::infinity()) {

@@ -29,14 +29,16 @@ void writeBeauty(const PixelSamples& samples, std::size_t pixel, bool variance, 
   if (variance) buffer.setVariance(pixel, samples.varianceOfMean());
 }
 
-void writePixels(const std::vector<PixelSamples>& samples, const DataScene& data, bool variance, FrameBuffer& buffer) {
+void writePixels(const std::vector<PixelSamples>& samples, const DataScene& data, bool variance,
+                 FrameBuffer& buffer) {
   const auto width = static_cast<std::size_t>(data.exposure.camera().width());
   parallelFor(samples.size(), 256, [&](std::size_t pixel) {
     const FloatingPointTraps trapped(true);
     writeBeauty(samples[pixel], pixel, variance, buffer);
     // A sliver may be met by the centre and by no sample: data is 0 where A is 0.
     if (samples[pixel].alpha > 0.0f)
-      writeDataChannels(data, static_cast<int>(pixel % width), static_cast<int>(pixel / width), pixel, buffer);
+      writeDataChannels(data, static_cast<int>(pixel % width), static_cast<int>(pixel / width), pixel,
+                        buffer);
   });
 }
 
@@ -71,14 +73,18 @@ struct Renderer::Impl {
   }
 
   /// The fluid as rays meet it. @param displaced  where its surface is kept if it is displaced
-  FluidGeometry geometry(const RenderInput& input, const Camera& camera, DisplacedSurface& displaced) const {
+  FluidGeometry geometry(const RenderInput& input, const Exposure& exposure,
+                         DisplacedSurface& displaced) const {
     const MaterialOptions& material = options.material;
     if (!input.texture || material.displacement == 0.0) return {&input.current->mesh};
     const PhaseTimer timer(times, "render: displacement");
-    displaced =
-        displace(*input.current, *input.texture, camera,
-                 {static_cast<float>(material.displacement), static_cast<float>(material.displacement_zero),
-                  input.texelSizeWorld, static_cast<std::size_t>(material.displacement_triangles)});
+    Displacement displacement{static_cast<float>(material.displacement),
+                              static_cast<float>(material.displacement_zero), input.texelSizeWorld,
+                              static_cast<std::size_t>(material.displacement_triangles)};
+    const double awayFrames = std::max(std::abs(exposure.open()), std::abs(exposure.close()));
+    displacement.travelWorld =
+        static_cast<float>(awayFrames / input.current->framesPerSecond) * input.current->maxSpeedWorldPerSec;
+    displaced = displace(*input.current, *input.texture, exposure.views(), displacement);
     if (displaced.longestEdge > 1.0f && input.warn)
       input.warn(fmt::format(
           "frame {}: material.displacement_triangles: got {}, enough for edges of {:.2g} times the "
@@ -118,7 +124,7 @@ ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& pr
   const Exposure exposure(impl_->path, impl_->options.camera.shutter, fluid.frame);
   const Camera& camera = exposure.camera();
   DisplacedSurface displaced;
-  FluidGeometry geometry = impl_->geometry(input, camera, displaced);
+  FluidGeometry geometry = impl_->geometry(input, exposure, displaced);
   if (exposure.movesFluid()) {
     const PhaseTimer timer(impl_->times, "render: motion");
     addShutterMotion(input.previous, fluid, input.next, exposure.open(), exposure.close(), geometry);
@@ -136,14 +142,16 @@ ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& pr
   std::vector<PixelSamples> samples;
   {
     const PhaseTimer timer(impl_->times, "render: light");
-    const PathIntegrator integrator({*scene, materials, impl_->lights},
-                                    {options.max_bounces, static_cast<float>(options.clamp), options.background});
+    const PathIntegrator integrator(
+        {*scene, materials, impl_->lights},
+        {options.max_bounces, static_cast<float>(options.clamp), options.background});
     SampleProgress watch;
     if (progress)
       watch = [&](const std::vector<PixelSamples>& s) {
         progress(unfinishedPicture(s, camera.width(), camera.height()));
       };
-    samples = renderBeauty(exposure, integrator, impl_->samplingPlan(fluid), watch, fmt::format("frame {}", fluid.frame));
+    samples = renderBeauty(exposure, integrator, impl_->samplingPlan(fluid), watch,
+                           fmt::format("frame {}", fluid.frame));
   }
   const PhaseTimer timer(impl_->times, "render: data channels");
   const MotionVectors motion(impl_->path, exposure.middle(), input.previous, fluid, input.next);

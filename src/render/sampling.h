@@ -28,6 +28,8 @@ class PixelSampler {
     pair_ = 0;
   }
 
+  std::uint32_t index() const { return index_; }
+
   /// The next pair, uniform in [0, 1)^2.
   Vec2f next() {
     const std::uint64_t hash = mixBits(key_ + 0x9e3779b97f4a7c15ull * ++pair_);
@@ -100,17 +102,14 @@ inline Vec3f sampleCosine(const Vec2f& u) {
   return {d.x(), d.y(), std::sqrt(std::max(0.0f, 1.0f - d.squaredNorm()))};
 }
 
-/// Uniform in solid angle in the cone about +z of which 1 - cos of the half angle is given, which is exact for narrow
-/// cones too; 2 is the whole sphere.
-inline Vec3f sampleConeOf(const Vec2f& u, float oneMinusCosine) {
+/// Uniform in solid angle in the cone about +z of which 1 - cos of the half angle is given, which is exact
+/// for narrow cones too; 2 is the whole sphere.
+inline Vec3f sampleCone(const Vec2f& u, float oneMinusCosine) {
   const Vec2f d = sampleDisc(u);
   const float height = std::min(d.squaredNorm(), 1.0f) * oneMinusCosine;
   const float scale = std::sqrt(std::max(0.0f, oneMinusCosine * (2.0f - height)));
   return {d.x() * scale, d.y() * scale, 1.0f - height};
 }
-
-/// Uniform in solid angle in the cone about +z with the given half angle.
-inline Vec3f sampleCone(const Vec2f& u, float cosHalfAngle) { return sampleConeOf(u, 1.0f - cosHalfAngle); }
 
 /// Offsets from the pixel centre distributed as a separable Blackman-Harris window, so that samples average
 /// with equal weights [Ernst et al. 2006].

@@ -54,7 +54,7 @@ void EnvironmentLookup(benchmark::State& state) {
   const auto light = environment(state);
   each(state, [&](const Vec2f& u) {
     LightSeen seen;
-    light->seenAlong({.direction = sampleConeOf(u, 2.0f)}, seen);
+    light->seenAlong({.direction = sampleCone(u, 2.0f)}, seen);
     return seen.pdf;
   });
 }
@@ -75,7 +75,7 @@ void AreaLightLookup(benchmark::State& state) {
   const Light light{LightOptions{}};
   each(state, [&](const Vec2f& u) {
     LightSeen seen;
-    light.seenAlong({.direction = sampleConeOf(u, 0.1f)}, seen);
+    light.seenAlong({.direction = sampleCone(u, 0.1f)}, seen);
     return seen.pdf;
   });
 }

@@ -89,6 +89,19 @@ TEST(AlphaHoles, SamplesAreIndependent) {
   EXPECT_LT(std::abs(neighbours / variance), 0.06);
 }
 
+// Also those of equal rays: without a pixel filter all camera rays of a pixel are one.
+TEST(AlphaHoles, EqualRaysOfDifferentSamplesAreIndependent) {
+  SceneOptions options = topView(32, 32, 1.0);
+  options.render.spp = 16;
+  options.render.filter_width_px = 0.0;
+  const ChannelImage image = render(options, makeFrame(sheet(2.0f, 0.0f)), Veil(0.5f));
+  const std::vector<float>& a = image.find("A")->data;
+  EXPECT_NEAR(mean(a), 0.5, 0.02);
+  double variance = 0.0;
+  for (const float value : a) variance += (value - 0.5) * (value - 0.5);
+  EXPECT_NEAR(variance / static_cast<double>(a.size()), 0.25 / 16.0, 0.003);
+}
+
 // The sun stands at 45 degrees; the sheet, 1 m over the ground, shades it 1 m to the side, where nothing
 // covers it: of a light of albedo * cos 45 three quarters arrive through an alpha of a quarter.
 TEST(AlphaHoles, LightGoesThroughToo) {

@@ -43,7 +43,7 @@ TEST(WhiteFurnaceByDirections, AgreesWithSampling) {
       if (what.name.starts_with("dielectric 1.2")) continue;  // refracts into a narrow lobe
       const Bsdf bsdf = seenFrom(50.0, what);
       const double sum = meanOver(1 << 17, 5, [&](const Vec2f& u, float side) {
-        Vec3f light = sampleCone(u, 0.0f);
+        Vec3f light = sampleCone(u, 1.0f);
         if (side < 0.5f) light.z() = -light.z();
         return 4.0 * M_PI * bsdf.evaluate(worldDirection(light)).x();
       });

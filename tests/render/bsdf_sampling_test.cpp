@@ -64,7 +64,7 @@ TEST(BsdfSampling, DirectionsAreDistributedAsTheDensity) {
         if (sample.pdf > 0.0f) counted.add(sample.towards, 1.0 / drawn);
       }
       meanOver(probes, 13, [&](const Vec2f& u, float) {
-        const Vec3f towards = worldDirection(sampleCone(u, -1.0f));
+        const Vec3f towards = worldDirection(sampleCone(u, 2.0f));
         expected.add(towards, bsdf.pdf(towards) * 4.0 * M_PI / probes);
         return 0.0;
       });
@@ -98,8 +98,8 @@ TEST(BsdfSampling, IsReciprocal) {
       for (std::uint32_t i = 0; i < 200; ++i) {
         Random random(4, 5, i);
         const float u = random.uniform(), v = random.uniform(), w = random.uniform();
-        const Vec3f viewer = sampleCone(Vec2f(u, v), 0.02f);
-        Vec3f light = sampleCone(Vec2f(w, random.uniform()), 0.02f);
+        const Vec3f viewer = sampleCone(Vec2f(u, v), 0.98f);
+        Vec3f light = sampleCone(Vec2f(w, random.uniform()), 0.98f);
         const bool through = what.material.type == MaterialType::dielectric && i % 2 == 1;
         if (through) light.z() = -light.z();
         const Vec3f a = worldDirection(viewer), b = worldDirection(light);

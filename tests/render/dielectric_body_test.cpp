@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "render/mock_fluid.h"
 #include "render/renderer.h"
 
@@ -55,6 +57,43 @@ TEST(DielectricBody, SlabAbsorbsOnTheWayThrough) {
   const double t = 0.5, r = 0.04;
   EXPECT_NEAR(meanOfCovered(options, makeBox(Vec3f::Zero(), Vec3f(4.0f, 4.0f, 0.2f))),
               r + (1.0 - r) * (1.0 - r) * t / (1.0 - r * t), 0.01);
+}
+
+// A mirror in a body that neither bends nor reflects light shows what is left after the way down and up
+// again.
+TEST(DielectricBody, AbsorbsUpToWhatLiesWithin) {
+  SceneOptions options = dielectric(0.0, 0.5);
+  options.material.ior = 1.0;  // no reflections: the way alone
+  options.material.transmission_colour = {0.1, 0.1, 0.1};
+  options.material.transmission_depth = 1.0;
+  options.render.max_bounces = 4;
+  ObstacleOptions bottom;
+  bottom.position = {0.0, 0.0, -0.4};
+  bottom.size = {8.0, 8.0, 0.2};
+  bottom.material.type = "metal";
+  bottom.material.roughness = 0.0;
+  bottom.material.colour = {1.0, 1.0, 1.0};
+  options.obstacles = {bottom};
+  // From z = 0.5 down to the mirror at -0.3 and up again, in a body that goes on below it.
+  EXPECT_NEAR(meanOfCovered(options, makeBox(Vec3f::Zero(), Vec3f(4.0f, 4.0f, 1.0f))), std::pow(0.1, 1.6),
+              0.002);
+}
+
+// A lamp in the body: its light, too, is lost on the way.
+TEST(DielectricBody, AbsorbsLightOfALampWithin) {
+  SceneOptions options = dielectric(0.0, 0.5);
+  options.material.ior = 1.0;
+  options.material.transmission_colour = {0.1, 0.1, 0.1};
+  options.material.transmission_depth = 1.0;
+  options.render.max_bounces = 4;
+  LightOptions lamp;
+  lamp.type = "quad";
+  lamp.position = {0.0, 0.0, 0.1};
+  lamp.facing = {0.0, 0.0, 1.0};
+  lamp.size = {2.0, 2.0};
+  options.lights = {lamp};
+  EXPECT_NEAR(meanOfCovered(options, makeBox(Vec3f::Zero(), Vec3f(4.0f, 4.0f, 1.0f))), std::pow(0.1, 0.4),
+              0.01);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ TEST(Displacement, EdgesAreUnderAPixelOrATexelWhereTheyAreSeen) {
   const Camera camera(options);
   const FluidFrame frame = makeFrame(flatSquare(6));
   const Heights flat([](const Vec3f&) { return 0.5f; });
-  const DisplacedSurface pixels = displace(frame, flat, camera, {0.02f, 0.5f, 0.0f, 1'000'000});
+  const DisplacedSurface pixels = displace(frame, flat, {camera}, {0.02f, 0.5f, 0.0f, 1'000'000});
   int seen = 0, beyond = 0;
   for (std::size_t i = 0; i < pixels.mesh.triangles.size(); ++i) {
     const Vec3i& t = pixels.mesh.triangles[i];
@@ -141,9 +141,35 @@ TEST(Displacement, EdgesAreUnderAPixelOrATexelWhereTheyAreSeen) {
   EXPECT_GT(seen, 10000);
   EXPECT_GT(beyond, 10);
   EXPECT_LE(pixels.longestEdge, 1.0f);
-  const DisplacedSurface texels = displace(frame, flat, camera, {0.02f, 0.5f, 0.1f, 1'000'000});
+  const DisplacedSurface texels = displace(frame, flat, {camera}, {0.02f, 0.5f, 0.1f, 1'000'000});
   EXPECT_LE(texels.longestEdge, 1.0f);
   EXPECT_LT(texels.mesh.triangles.size(), 4u * 3200u);
+}
+
+// A camera that pans while its shutter is open sees relief all the way, as it sees where the fluid comes
+// from.
+TEST(Displacement, IsFineForAllOfTheExposure) {
+  const FluidFrame frame = makeFrame(flatSquare(6));
+  const Heights flat([](const Vec3f&) { return 0.5f; });
+  SceneOptions from = topView(32, 32, 0.2), to = from;
+  to.camera.position[0] = to.camera.target[0] = 0.5;
+  const Camera here(from.camera), there(to.camera);
+  const auto finestNear = [&](const std::vector<Camera>& views, float travel, float x) {
+    Displacement displacement{0.02f, 0.5f, 0.0f, 1'000'000};
+    displacement.travelWorld = travel;
+    const DisplacedSurface surface = displace(frame, flat, views, displacement);
+    float finest = 1.0f;
+    for (const Vec3i& t : surface.mesh.triangles) {
+      const Vec3f a = surface.mesh.positions[static_cast<std::size_t>(t[0])],
+                  b = surface.mesh.positions[static_cast<std::size_t>(t[1])];
+      if ((a - Vec3f(x, 0.0f, 0.0f)).norm() < 0.03f) finest = std::min(finest, (b - a).norm());
+    }
+    return finest;
+  };
+  EXPECT_GT(finestNear({here}, 0.0f, 0.5f), 0.02f);
+  EXPECT_LT(finestNear({here, there}, 0.0f, 0.5f), 0.0063f);
+  EXPECT_LT(finestNear({here}, 0.5f, 0.5f), 0.0063f);
+  EXPECT_LT(finestNear({here, there}, 0.0f, 0.0f), 0.0063f);
 }
 
 // The barycentrics that the texture is asked with are those of the frame's own triangle.
@@ -151,7 +177,7 @@ TEST(Displacement, TexturePointsAreThoseOfTheFramesTriangles) {
   const FluidFrame frame = makeFrame(flatSquare(3));
   const Heights tilted([](const Vec3f& p) { return 0.5f + 0.2f * p.x(); });
   DisplacedSurface surface =
-      displace(frame, tilted, Camera(topView(40, 40, 1.5).camera), {0.1f, 0.5f, 0.0f, 100'000});
+      displace(frame, tilted, {Camera(topView(40, 40, 1.5).camera)}, {0.1f, 0.5f, 0.0f, 100'000});
   const FluidGeometry geometry = surface.geometry(frame.mesh);
   ASSERT_GT(geometry.mesh->triangles.size(), 3000u);
   for (std::uint32_t t = 0; t < geometry.mesh->triangles.size(); t += 7) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/colorimetry.h"
 #include "render/materials/black_body.h"
 #include "render/mock_fluid.h"
 

@@ -83,7 +83,7 @@ inline double seenSolidAngle(const Light& light, const Vec3f& point, int count =
   for (int i = 0; i < count; ++i) {
     sampler.start(static_cast<std::uint32_t>(i));
     LightSeen seen;
-    met += light.seenAlong({.origin = point, .direction = sampleConeOf(sampler.next(), 2.0f)}, seen);
+    met += light.seenAlong({.origin = point, .direction = sampleCone(sampler.next(), 2.0f)}, seen);
   }
   return 4.0 * M_PI * met / count;
 }

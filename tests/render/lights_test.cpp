@@ -99,7 +99,7 @@ TEST_F(EnvironmentImage, SamplesAgreeWithLookUpAndDensity) {
     const double azimuth = std::atan2(sample.towards.x(), sample.towards.y()) * 8.0 / M_PI + 8.0;
     const double polar = std::acos(sample.towards.z()) * 8.0 / M_PI;
     bright += azimuth > 9.0 && azimuth < 10.0 && polar > 3.0 && polar < 4.0;
-    const LightSeen anywhere = seenFrom(environment, sampleConeOf(sampler.next(), 2.0f));
+    const LightSeen anywhere = seenFrom(environment, sampleCone(sampler.next(), 2.0f));
     everywhere += anywhere.pdf * 4.0 * M_PI;
     redEverywhere += anywhere.radiance.x() * 4.0 * M_PI;
   }

@@ -7,6 +7,7 @@
 #include "render/camera/camera_path.h"
 #include "render/film/aovs.h"
 #include "render/geometry/fluid_motion.h"
+#include "render/geometry/scene.h"
 #include "render/renderer.h"
 
 namespace ebru {

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "light_checks.h"
 #include "mock_fluid.h"
+#include "render/colorimetry.h"
 #include "render/lights/environment.h"
 #include "render/lights/lights.h"
 #include "render/lights/sun_spectrum.h"

@@ -12,10 +12,6 @@
 namespace ebru {
 namespace {
 
-Vec3d vec(const std::array<double, 3>& a) {
-  return {a[0], a[1], a[2]};
-}
-
 // Row vectors. Perspective: (x, y, z, 1) -> (x / W + z / 2, z / 2 - y / H, z - near, z), divided by w = z.
 Mat4d cameraToNdcMatrix(bool perspective, double screenWidth, double screenHeight) {
   constexpr double nearWorld = 0.01;
@@ -34,9 +30,9 @@ Mat4d cameraToNdcMatrix(bool perspective, double screenWidth, double screenHeigh
 }  // namespace
 
 CameraPose::CameraPose(const CameraKeyOptions& key)
-    : position(vec(key.position)),
-      target(vec(key.target)),
-      up(vec(key.up)),
+    : position(vectorOf(key.position)),
+      target(vectorOf(key.target)),
+      up(vectorOf(key.up)),
       verticalFovDeg(key.vertical_fov_deg),
       orthographicHeightWorld(key.orthographic_height),
       focusDistanceWorld(key.focus_distance) {}

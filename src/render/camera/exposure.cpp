@@ -9,6 +9,13 @@ Exposure::Exposure(const CameraPath& path, const std::array<double, 2>& shutter,
       lasts_(shutter[1] > shutter[0]),
       camera_(path.at(frame_ + middle())) {}
 
+std::vector<Camera> Exposure::views() const {
+  std::vector<Camera> result{camera_};
+  if (lasts_ && path_.moves())
+    for (const double end : shutter_) result.push_back(path_.at(frame_ + end));
+  return result;
+}
+
 CameraRay Exposure::litRay(const Vec2d& raster, PixelSampler& sampler) const {
   const auto through = [&](const Camera& camera) {
     return camera.hasLens() ? camera.rayThrough(raster, sampler.next()) : camera.rayThrough(raster);

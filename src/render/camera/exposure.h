@@ -15,6 +15,8 @@ class Exposure {
 
   /// The camera in the middle of the exposure, which is what data is seen with.
   const Camera& camera() const { return camera_; }
+  /// The cameras that lit rays come from: the one in the middle, and where it moves those at the ends too.
+  std::vector<Camera> views() const;
   double open() const { return shutter_[0]; }
   double close() const { return shutter_[1]; }
   double middle() const { return 0.5 * (shutter_[0] + shutter_[1]); }

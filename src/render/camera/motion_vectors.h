@@ -21,24 +21,17 @@ class MotionVectors {
   MotionVectors(const CameraPath& path, double middle, const FluidFrame* previous, const FluidFrame& current,
                 const FluidFrame* next);
 
-  /// Of a point of the fluid, one frame onwards ...
-  Vec2f forward(const Vec3f& pWorld) const {
-    return between(pWorld, flow_.carry(pWorld, middle_, middle_ + 1.0), after_);
-  }
-  /// ... and one back.
-  Vec2f backward(const Vec3f& pWorld) const {
-    return between(pWorld, flow_.carry(pWorld, middle_, middle_ - 1.0), before_);
-  }
   /// Of a point at rest in the world: the camera's motion alone.
   Vec2f forwardAtRest(const Vec3f& pWorld) const { return between(pWorld, pWorld, after_); }
   Vec2f backwardAtRest(const Vec3f& pWorld) const { return between(pWorld, pWorld, before_); }
 
-  /// The same of a point off the fluid's surface, where that is displaced: it rides on its `foot`, the point
-  /// of the frame's surface that it was moved from, keeps its height over it, and turns with the surface
-  /// there.
+  /// Of a point of the fluid, one frame onwards. Where the surface is displaced it rides on its `foot`, the
+  /// point of the frame's surface that it was moved from: it keeps its height over it, and turns with the
+  /// surface there.
   Vec2f forward(const Vec3f& pWorld, const SurfacePoint& foot) const {
     return ofRider(pWorld, foot, middle_ + 1.0, after_);
   }
+  /// The same, one frame back.
   Vec2f backward(const Vec3f& pWorld, const SurfacePoint& foot) const {
     return ofRider(pWorld, foot, middle_ - 1.0, before_);
   }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "render/colorimetry.h"
 
 namespace ebru {
 
@@ -22,18 +23,18 @@ struct PixelSamples {
   }
   Vec3f mean() const { return sum / static_cast<float>(std::max(count, 1)); }
   float meanAlpha() const { return alpha / static_cast<float>(std::max(count, 1)); }
-  /// Estimated variance of `mean`, as of independent samples: stratified ones err less. Zero below two samples.
+  /// Estimated variance of `mean`, as of independent samples: stratified ones err less. Zero below two
+  /// samples.
   Vec3f varianceOfMean() const {
     if (count < 2) return Vec3f::Zero();
     const auto n = static_cast<float>(count);
     return ((sumSquared - sum.cwiseAbs2() / n) / (n * (n - 1.0f))).cwiseMax(0.0f);
   }
-  /// Estimated standard error of the pixel's display value, about the root of its luminance: 1 is from black to
-  /// white. Luminances below 0.01 count as that.
+  /// Square of the estimated standard error of the pixel's display value, about the root of its luminance: 1
+  /// is from black to white. Luminances below 0.01 count as that.
   float displayErrorSquared() const {
-    const Vec3f luminance(0.2126f, 0.7152f, 0.0722f);
     // d sqrt(L) = dL / (2 sqrt(L)); channels err together, for which the weighted mean is an upper bound.
-    return luminance.dot(varianceOfMean()) / (4.0f * std::max(0.01f, luminance.dot(mean())));
+    return luminanceRec709(varianceOfMean()) / (4.0f * std::max(0.01f, luminanceRec709(mean())));
   }
 };
 

@@ -16,10 +16,10 @@ constexpr std::size_t grain = 1024;
 /// Heights are interpolated smoothly between texels; longer edges would be seen in highlights close up.
 constexpr float edgeTexels = 0.5f;
 
-/// Measures edges against what the picture and the texture can show.
+/// Measures edges against what a camera's picture and the texture can show.
 class VisibleEdges {
  public:
-  /// @param reachWorld  how far displacement may move a vertex
+  /// @param reachWorld  how far a vertex may be from where it is measured
   VisibleEdges(const Camera& camera, float texelWorld, float reachWorld)
       : camera_(camera), smallestWorld_(edgeTexels * texelWorld), reachWorld_(reachWorld) {
     constexpr double marginOfSize = 0.05;
@@ -123,13 +123,20 @@ FluidGeometry DisplacedSurface::geometry(const TriangleMesh& frameMesh) {
   return result;
 }
 
-DisplacedSurface displace(const FluidFrame& frame, const TextureField& texture, const Camera& camera,
-                          const Displacement& displacement) {
+DisplacedSurface displace(const FluidFrame& frame, const TextureField& texture,
+                          const std::vector<Camera>& views, const Displacement& displacement) {
   checkTriangles(frame.mesh, frame.source);
-  const float reach = std::abs(displacement.heightWorld) *
-                      std::max(std::abs(displacement.zero), std::abs(1.0f - displacement.zero));
-  RefinedMesh refined =
-      refineMesh(frame.mesh, VisibleEdges(camera, displacement.texelWorld, reach), displacement.maxTriangles);
+  const float height = std::abs(displacement.heightWorld) *
+                       std::max(std::abs(displacement.zero), std::abs(1.0f - displacement.zero));
+  std::vector<VisibleEdges> measures;
+  for (const Camera& view : views)
+    measures.emplace_back(view, displacement.texelWorld, height + displacement.travelWorld);
+  const EdgeMeasure seen = [&](const Vec3f& a, const Vec3f& b) {
+    float largest = 0.0f;
+    for (const VisibleEdges& measure : measures) largest = std::max(largest, measure(a, b));
+    return largest;
+  };
+  RefinedMesh refined = refineMesh(frame.mesh, seen, displacement.maxTriangles);
   const std::vector<Surroundings> before = surroundings(refined.mesh.positions, refined.mesh.triangles);
   DisplacedSurface result;
   result.longestEdge = refined.longestEdge;

@@ -16,6 +16,7 @@ struct Displacement {
   float zero = 0.5f;         ///< the height that stays on the surface
   float texelWorld = 0.0f;   ///< width of one exemplar texel on the surface; 0: not known
   std::size_t maxTriangles = 4'000'000;
+  float travelWorld = 0.0f;  ///< how far the surface goes, at most, while the shutter is open
 };
 
 /// A frame's surface, displaced.
@@ -29,19 +30,21 @@ struct DisplacedSurface {
   FluidGeometry geometry(const TriangleMesh& frameMesh);
 };
 
-/// Moves a frame's surface along its normals by (height - zero) * heightWorld of its texture [Cook 1984, "Shade
-/// Trees"].
+/// Moves a frame's surface along its normals by (height - zero) * heightWorld of its texture [Cook 1984,
+/// "Shade Trees"].
 ///
-/// First the mesh is refined (refineMesh) until no edge is wider than a pixel there, or than half a texel, where that
-/// is more. A pixel's width is that at the edge's nearest point, whatever way the edge runs, so that silhouettes are
-/// as fine; no edge is taken to be nearer than 1 cm. What lies outside the picture by more than a twentieth of it, or
-/// behind the camera, is left as coarse as it is. Then every vertex is looked up once, with the mean length of its
-/// edges as the footprint, and moved. Holes of the texture stay where they are. The displaced normals are the base's,
+/// First the mesh is refined (refineMesh) until no edge is wider than a pixel there, or than half a texel,
+/// where that is more. A pixel's width is that at the edge's nearest point, whatever way the edge runs, so
+/// that silhouettes are as fine; no edge is taken to be nearer than 1 cm. What lies outside the picture by
+/// more than a twentieth of it, or behind the camera, is left as coarse as it is. Of several views the one
+/// that asks for the finest counts. Then every vertex is looked up once, with the mean length of its edges as
+/// the footprint, and moved. Holes of the texture stay where they are. The displaced normals are the base's,
 /// turned by what displacement turned the mean of the triangles around.
 ///
-/// Up to 250 bytes per triangle of the result while it works, 44 afterwards. Deterministic for any number of threads.
+/// Up to 250 bytes per triangle of the result while it works, 44 afterwards. Deterministic for any number of
+/// threads.
 /// @throw InputError if a triangle of the frame names a vertex that does not exist
-DisplacedSurface displace(const FluidFrame& frame, const TextureField& texture, const Camera& camera,
-                          const Displacement& displacement);
+DisplacedSurface displace(const FluidFrame& frame, const TextureField& texture,
+                          const std::vector<Camera>& views, const Displacement& displacement);
 
 }  // namespace ebru

@@ -25,8 +25,8 @@ struct FluidGeometry {
 
 /// The point that the fluid's texture is asked for at a point of its mesh: on the frame's own surface. Where
 /// the mesh is a refined one its triangle and barycentrics are those of the frame's mesh, of the place
-/// nearest to it in that triangle. Its footprint is zero. Where there is not one normal per vertex, or the
-/// interpolated one vanishes, the normal is the triangle's own. A pure function.
+/// below it, moved into that triangle. Its footprint is zero. Where there is not one normal per vertex, or
+/// the interpolated one vanishes, the normal is the triangle's own. A pure function.
 /// @param barycentric  weights of the triangle's second and third vertex
 SurfacePoint texturePoint(const FluidGeometry& fluid, std::uint32_t triangle, const Vec2f& barycentric);
 

@@ -29,8 +29,9 @@ void addShutterMotion(const FluidFrame* previous, const FluidFrame& current, con
   const FrameFlow flow(previous, current, next);
   const double centre = 0.5 * (open + close);
   geometry.atOpen = verticesAt(flow, open, geometry);
-  geometry.atClose = verticesAt(flow, close, geometry);
-  if (centre != 0.0) geometry.atCentre = verticesAt(flow, centre, geometry);
+  const bool instant = open == close;
+  geometry.atClose = instant ? geometry.atOpen : verticesAt(flow, close, geometry);
+  if (centre != 0.0) geometry.atCentre = instant ? geometry.atOpen : verticesAt(flow, centre, geometry);
   const std::vector<Vec3f>& still = geometry.mesh->positions;
   if (geometry.atOpen != still || geometry.atClose != still) return;
   geometry.atOpen.clear();

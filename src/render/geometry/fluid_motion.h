@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fluid/fluid_frame.h"
-#include "render/geometry/scene.h"
+#include "render/geometry/fluid_geometry.h"
 
 namespace ebru {
 

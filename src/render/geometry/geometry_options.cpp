@@ -16,11 +16,12 @@ OptionFields fields(GroundOptions& o) {
   return joined(
       {
           optionField("enabled", &o.enabled, "", "Whether there is a ground, a horizontal plane (z is up)."),
-          optionField("height", &o.height, "m", "Its z."),
-          optionField("radius", &o.radius, "m", "It is a disc of this radius; 0 makes it infinite.", 0.0),
-          optionField("centre", &o.centre, "m", "Centre (x, y) of the disc."),
-          optionField("checker_size", &o.checker_size, "m", "Side of the squares of a checkerboard; 0 is plain.",
-                      0.0),
+          optionField("height", &o.height, "m", "Its z.", -mostWorld, mostWorld),
+          optionField("radius", &o.radius, "m", "It is a disc of this radius; 0 makes it infinite.", 0.0,
+                      mostWorld),
+          optionField("centre", &o.centre, "m", "Centre (x, y) of the disc.", -mostWorld, mostWorld),
+          optionField("checker_size", &o.checker_size, "m",
+                      "Side of the squares of a checkerboard; 0 is plain.", 0.0),
           optionField("checker_colour", &o.checker_colour, "", "Colour of every other square.", 0.0, 1.0),
       },
       materialFields(o.material));
@@ -39,13 +40,14 @@ OptionFields fields(ObstacleOptions& o) {
                        "a mesh from "
                        "a file.",
                        {"box", "sphere", "tank", "mesh"}),
-          optionField("position", &o.position, "m",
-                      "Its centre; mesh: where the file's origin comes to lie."),
-          optionField("size", &o.size, "m", "Box and tank: length along x, y and z, outside.", 1e-6),
-          optionField("radius", &o.radius, "m", "Sphere: its radius.", 1e-6),
-          optionField("thickness", &o.thickness, "m", "Tank: of its walls and its floor.", 1e-6),
+          optionField("position", &o.position, "m", "Its centre; mesh: where the file's origin comes to lie.",
+                      -mostWorld, mostWorld),
+          optionField("size", &o.size, "m", "Box and tank: length along x, y and z, outside.", 1e-6,
+                      mostWorld),
+          optionField("radius", &o.radius, "m", "Sphere: its radius.", 1e-6, mostWorld),
+          optionField("thickness", &o.thickness, "m", "Tank: of its walls and its floor.", 1e-6, mostWorld),
           file,
-          optionField("scale", &o.scale, "", "Mesh: metres per unit of the file.", 1e-12),
+          optionField("scale", &o.scale, "", "Mesh: metres per unit of the file.", 1e-12, mostWorld),
       },
       materialFields(o.material));
 }

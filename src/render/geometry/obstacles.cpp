@@ -18,10 +18,6 @@
 namespace ebru {
 namespace {
 
-Vec3f vec(const std::array<double, 3>& a) {
-  return Vec3d(a[0], a[1], a[2]).cast<float>();
-}
-
 /// Unit, or zero where it has no direction.
 Vec3f direction(const Vec3f& v) {
   const float length = v.norm();
@@ -109,7 +105,8 @@ TriangleMesh makeTankOf(const ObstacleOptions& o, const std::string& name) {
         fmt::format("{}.thickness: got {} m, expected less than half of {} m across and less than {} m of "
                     "height; make it thinner or the tank larger",
                     name, o.thickness, across, o.size[2]));
-  return makeTank(vec(o.position), vec(o.size), static_cast<float>(o.thickness));
+  return makeTank(vectorOf(o.position).cast<float>(), vectorOf(o.size).cast<float>(),
+                  static_cast<float>(o.thickness));
 }
 
 TriangleMesh makePlacedMesh(const ObstacleOptions& o, const std::string& name) {
@@ -117,7 +114,7 @@ TriangleMesh makePlacedMesh(const ObstacleOptions& o, const std::string& name) {
     throw UsageError(
         fmt::format("{}.file: got none, expected the .obj or .ply file of the mesh; name it", name));
   TriangleMesh mesh = readMesh(o.file);
-  for (Vec3f& p : mesh.positions) p = static_cast<float>(o.scale) * p + vec(o.position);
+  for (Vec3f& p : mesh.positions) p = static_cast<float>(o.scale) * p + vectorOf(o.position).cast<float>();
   return mesh;
 }
 
@@ -143,10 +140,11 @@ TriangleMesh readMesh(const std::string& path) {
 }
 
 TriangleMesh makeObstacle(const ObstacleOptions& options, const std::string& name) {
-  if (options.shape == "sphere") return makeSphere(vec(options.position), static_cast<float>(options.radius));
+  if (options.shape == "sphere")
+    return makeSphere(vectorOf(options.position).cast<float>(), static_cast<float>(options.radius));
   if (options.shape == "tank") return makeTankOf(options, name);
   if (options.shape == "mesh") return makePlacedMesh(options, name);
-  return makeBox(vec(options.position), vec(options.size));
+  return makeBox(vectorOf(options.position).cast<float>(), vectorOf(options.size).cast<float>());
 }
 
 }  // namespace ebru

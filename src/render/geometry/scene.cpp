@@ -49,10 +49,17 @@ void turnWithTriangle(const std::vector<Vec3f>& rest, const Vec3i& triangle,
             .stableNormalized();
 }
 
+/// How far off a surface rays start. Points interpolated between others carry errors of a few units in the
+/// last place of the largest coordinate involved (2^-24 of it); 32 times that clears the surface without a
+/// visible gap under contacts.
+float clearance(float largestCoordinate) {
+  return 0x1p-19f * std::max(largestCoordinate, 1e-6f);
+}
+
 }  // namespace
 
-Scene::Scene(const FluidGeometry& fluid, const std::vector<TriangleMesh>& obstacles, const GroundOptions& ground,
-             const std::string& source, const HitFilter* holes)
+Scene::Scene(const FluidGeometry& fluid, const std::vector<TriangleMesh>& obstacles,
+             const GroundOptions& ground, const std::string& source, const HitFilter* holes)
     : fluid_(fluid), ground_(ground) {
   checkTriangles(*fluid.mesh, source);
   meshes_.push_back({fluid.mesh, holes != nullptr});
@@ -62,18 +69,7 @@ Scene::Scene(const FluidGeometry& fluid, const std::vector<TriangleMesh>& obstac
     meshes_.front().atClose = &fluid.atClose;
   }
   for (const TriangleMesh& mesh : obstacles) meshes_.push_back({&mesh});
-  for (const RayMesh& part : meshes_)
-    for (const Vec3f& p : part.mesh->positions) {
-      const float reach = p.cwiseAbs().maxCoeff();
-      if (std::isfinite(reach)) extentWorld_ = std::max(extentWorld_, reach);
-    }
   embree_ = std::make_unique<EmbreeScene>(meshes_, holes);
-}
-
-// Coordinates near p carry errors of a few units in the last place of the largest number involved (2^-24 of
-// it); 32 times that clears the surface without a visible gap under contacts.
-float Scene::epsilon(const Vec3f& p) const {
-  return 0x1p-19f * std::max({extentWorld_, p.cwiseAbs().maxCoeff(), 1e-6f});
 }
 
 bool Scene::groundDistance(const Ray& ray, float& distanceWorld) const {
@@ -115,7 +111,7 @@ void Scene::completeGroundHit(const Ray& ray, SurfaceHit& hit) const {
   hit.normal = Vec3f::UnitZ();
   hit.inside = !(ray.direction.z() < 0.0f);
   hit.facing = hit.inside ? Vec3f(0.0f, 0.0f, -1.0f) : Vec3f(0.0f, 0.0f, 1.0f);
-  const Vec3f off = epsilon(hit.position) * hit.facing;
+  const Vec3f off = clearance(hit.position.cwiseAbs().maxCoeff()) * hit.facing;
   hit.originHere = hit.position + off;
   hit.originBeyond = hit.position - off;
 }
@@ -157,7 +153,9 @@ void Scene::completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hi
   hit.inside = geometric.dot(ray.direction) > 0.0f;
   const float side = hit.inside ? -1.0f : 1.0f;
   hit.facing = side * hit.normal;
-  const Vec3f off = (side * epsilon(hit.position)) * geometric;
+  float largest = 0.0f;
+  for (const Vec3f& p : corners.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  const Vec3f off = (side * clearance(largest)) * geometric;
   hit.originHere = corners.lift(hit.position, side) + off;
   hit.originBeyond = hit.position - off;
   if (hit.kind == SurfaceKind::fluid) hit.onTexture = texturePoint(fluid_, found.triangle, found.barycentric);

@@ -19,14 +19,15 @@ enum class SurfaceKind { fluid, obstacle, ground };
 /// Where a ray meets a surface. World space, metres.
 struct SurfaceHit {
   SurfaceKind kind = SurfaceKind::fluid;
-  std::uint32_t obstacle = 0;        ///< index, for obstacles
-  bool inside = false;               ///< the ray comes from within the body that the surface bounds
-  Vec3f position = Vec3f::Zero();    ///< at the ray's time
-  Vec3f normal = Vec3f::UnitZ();     ///< unit, interpolated, out of the body (up for the ground), also if inside
-  Vec3f facing = Vec3f::UnitZ();     ///< `normal` or its opposite: on the side of the surface that the ray sees
-  Vec3f originHere = Vec3f::Zero();  ///< where rays that stay on that side start: off the surface
+  std::uint32_t obstacle = 0;      ///< index, for obstacles
+  bool inside = false;             ///< the ray comes from within the body that the surface bounds
+  Vec3f position = Vec3f::Zero();  ///< at the ray's time
+  Vec3f normal = Vec3f::UnitZ();  ///< unit, interpolated, out of the body (up for the ground), also if inside
+  Vec3f facing = Vec3f::UnitZ();  ///< `normal` or its opposite: on the side of the surface that the ray sees
+  Vec3f originHere = Vec3f::Zero();    ///< where rays that stay on that side start: off the surface
   Vec3f originBeyond = Vec3f::Zero();  ///< where rays that go through start
-  /// Of the fluid: what its texture is asked for. On the frame's own surface: not displaced, at the frame's time.
+  /// Of the fluid: what its texture is asked for. On the frame's own surface: not displaced, at the frame's
+  /// time.
   SurfacePoint onTexture;
   float distanceWorld = 0.0f;
 };
@@ -51,12 +52,10 @@ class Scene {
   bool groundDistance(const Ray& ray, float& distanceWorld) const;
   void completeMeshHit(const Ray& ray, const MeshHit& found, SurfaceHit& hit) const;
   void completeGroundHit(const Ray& ray, SurfaceHit& hit) const;
-  float epsilon(const Vec3f& p) const;
 
   const FluidGeometry& fluid_;
   std::vector<RayMesh> meshes_;  ///< fluid, then obstacles
   GroundOptions ground_;
-  float extentWorld_ = 0.0f;  ///< largest |coordinate| of a vertex
   std::unique_ptr<EmbreeScene> embree_;
 };
 

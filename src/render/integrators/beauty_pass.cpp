@@ -18,7 +18,8 @@ constexpr int fewestForError = 16;
 
 class Tiles {
  public:
-  Tiles(const Exposure& exposure, const PathIntegrator& integrator, const SamplingPlan& plan, const std::string& where)
+  Tiles(const Exposure& exposure, const PathIntegrator& integrator, const SamplingPlan& plan,
+        const std::string& where)
       : exposure_(exposure),
         integrator_(integrator),
         plan_(plan),
@@ -27,7 +28,8 @@ class Tiles {
         // With more samples each stands for less of the pixel, so its texture may be sharper.
         footprintScale_(std::max(0.125f, 1.0f / std::sqrt(static_cast<float>(plan.spp)))),
         across_((exposure.camera().width() + tileSize - 1) / tileSize),
-        pixels_(static_cast<std::size_t>(exposure.camera().width()) * static_cast<std::size_t>(exposure.camera().height())) {
+        pixels_(static_cast<std::size_t>(exposure.camera().width()) *
+                static_cast<std::size_t>(exposure.camera().height())) {
     const int down = (exposure.camera().height() + tileSize - 1) / tileSize;
     for (int tile = 0; tile < across_ * down; ++tile) active_.push_back(tile);
   }
@@ -49,17 +51,19 @@ class Tiles {
   bool sampleTile(int tile, int count) {
     const FloatingPointTraps trapped(true);
     const int left = tile % across_ * tileSize, top = tile / across_ * tileSize;
-    const int right = std::min(left + tileSize, exposure_.camera().width()), bottom = std::min(top + tileSize, exposure_.camera().height());
+    const int right = std::min(left + tileSize, exposure_.camera().width()),
+              bottom = std::min(top + tileSize, exposure_.camera().height());
     float error = 0.0f;
     for (int y = top; y < bottom; ++y)
       for (int x = left; x < right; ++x) {
-        const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(exposure_.camera().width()) +
-                                  static_cast<std::size_t>(x);
+        const std::size_t pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(exposure_.camera().width()) +
+            static_cast<std::size_t>(x);
         samplePixel(x, y, pixel, count);
         error += pixels_[pixel].displayErrorSquared();
       }
     const auto tilePixels = static_cast<float>((right - left) * (bottom - top));
-    return count >= fewestForError && error <= plan_.noise * plan_.noise * tilePixels;
+    return plan_.noise > 0.0f && count >= fewestForError && error <= plan_.noise * plan_.noise * tilePixels;
   }
 
   void samplePixel(int x, int y, std::size_t index, int count) {
@@ -73,10 +77,10 @@ class Tiles {
       ray.widthPerMetre *= footprintScale_;
       const RaySample sample = integrator_.trace(ray, sampler);
       if (!sample.radiance.allFinite())
-        throw BugError(
-            fmt::format("{} pixel ({}, {}) sample {}: radiance: got ({}, {}, {}), expected finite values; check the "
-                        "texture's colours there",
-                        where_, x, y, pixel.count, sample.radiance.x(), sample.radiance.y(), sample.radiance.z()));
+        throw BugError(fmt::format(
+            "{} pixel ({}, {}) sample {}: radiance: got ({}, {}, {}), expected finite values; check the "
+            "texture's colours there",
+            where_, x, y, pixel.count, sample.radiance.x(), sample.radiance.y(), sample.radiance.z()));
       pixel.add(sample.radiance, sample.alpha);
     }
   }
@@ -101,8 +105,9 @@ int nextCount(const SamplingPlan& plan, int count, bool watched) {
 
 }  // namespace
 
-std::vector<PixelSamples> renderBeauty(const Exposure& exposure, const PathIntegrator& integrator, const SamplingPlan& plan,
-                                       const SampleProgress& progress, const std::string& where) {
+std::vector<PixelSamples> renderBeauty(const Exposure& exposure, const PathIntegrator& integrator,
+                                       const SamplingPlan& plan, const SampleProgress& progress,
+                                       const std::string& where) {
   Tiles tiles(exposure, integrator, plan, where);
   for (int count = 0; !tiles.finished();) {
     count = nextCount(plan, count, static_cast<bool>(progress));

@@ -8,15 +8,27 @@
 namespace ebru {
 namespace {
 
-/// Weight of a sampling technique with density `a` against one with `b` [Veach and Guibas 1995, power heuristic].
+/// Weight of a sampling technique with density `a` against one with `b` [Veach and Guibas 1995, power
+/// heuristic].
 float powerHeuristic(float a, float b) {
   // The smaller over the larger: squares of steep densities overflow.
   const float ratio = std::min(a, b) / std::max(a, b), square = ratio * ratio;
   return (a >= b ? 1.0f : square) / (1.0f + square);
 }
 
-/// How much wider the footprint of a path grows per metre after a scattering of that density. Blurred look-ups
-/// further down the path are noise that is not made.
+/// Roulette plays with paths that carry less: with brighter ones it makes more noise than the time it saves
+/// would take away.
+constexpr float worthFollowing = 0.1f;
+
+/// What is left of light after its way through a medium. Light from infinitely far has not come all its way
+/// in it.
+Vec3f transmittance(const Vec3f& absorptionPerMetre, float distanceWorld) {
+  if (std::isinf(distanceWorld)) return Vec3f::Ones();
+  return (-distanceWorld * absorptionPerMetre.array()).exp();
+}
+
+/// How much wider the footprint of a path grows per metre after a scattering of that density. Blurred
+/// look-ups further down the path are noise that is not made.
 float scatteredWidthPerMetre(float pdf) {
   return 0.1f / std::sqrt(std::max(pdf, 1e-3f));
 }
@@ -27,7 +39,18 @@ float scatteredWidthPerMetre(float pdf) {
 struct PathIntegrator::Vertex {
   const SurfaceHit& hit;
   const Bsdf& bsdf;
-  float time;
+  const Ray& ray;                                                          ///< by which it was found
+  Vec3f absorptionHere = Vec3f::Zero(), absorptionBeyond = Vec3f::Zero();  ///< per metre, on its two sides
+
+  /// A ray that leaves it.
+  Ray leaving(const Vec3f& towards, bool beyond) const {
+    Ray result;
+    result.origin = beyond ? hit.originBeyond : hit.originHere;
+    result.direction = towards;
+    result.time = ray.time;
+    result.sample = ray.sample;
+    return result;
+  }
 };
 
 /// The last scattering before a ray.
@@ -39,8 +62,9 @@ struct PathIntegrator::Tail {
 
 RaySample PathIntegrator::trace(const CameraRay& cameraRay, PixelSampler& sampler) const {
   Ray ray = cameraRay.ray;
+  ray.sample = sampler.index();
   float width = cameraRay.widthWorld, widthPerMetre = cameraRay.widthPerMetre;
-  Vec3f throughput = Vec3f::Ones();
+  Vec3f throughput = Vec3f::Ones(), absorption = Vec3f::Zero();
   Tail tail;
   RaySample result;
   const auto add = [&](const Vec3f& light, int bounce) {
@@ -54,22 +78,25 @@ RaySample PathIntegrator::trace(const CameraRay& cameraRay, PixelSampler& sample
     SurfaceHit hit;
     const bool met = in_.scene.intersect(ray, hit);
     if (met) ray.farWorld = hit.distanceWorld;
-    if (bounce > 0 || limits_.showBackground) add(lightsSeen(ray, tail), bounce);
+    // What a ray leaves tells what it has crossed, wherever it came in.
+    if (met && hit.inside) in_.materials.fills(hit, absorption);
+    if (bounce > 0 || limits_.showBackground) add(lightsSeen(ray, absorption, tail), bounce);
     if (!met) {
       if (bounce == 0) result.alpha = limits_.showBackground ? 1.0f : 0.0f;
       break;
     }
     result.alpha = 1.0f;
 
+    if (bounce >= limits_.maxBounces && !in_.materials.emits()) break;
     width += widthPerMetre * hit.distanceWorld;
     const Appearance appearance = in_.materials.at(hit, ray.direction, width);
-    if (hit.inside && appearance.material.type == MaterialType::dielectric)
-      throughput.array() *= (-hit.distanceWorld * appearance.material.absorptionPerMetre.array()).exp();
+    throughput.array() *= transmittance(absorption, hit.distanceWorld).array();
     add(appearance.emission, bounce);
     if (bounce >= limits_.maxBounces) break;
 
     const Bsdf bsdf(appearance.material, hit.facing, -ray.direction, hit.inside);
-    const Vertex vertex{hit, bsdf, ray.time};
+    Vertex vertex{hit, bsdf, ray, absorption};
+    if (!hit.inside) in_.materials.fills(hit, vertex.absorptionBeyond);
     const std::vector<const Light*>& lights = in_.lights.sampled;
     const bool last = bounce + 1 >= limits_.maxBounces;
     tail = {};
@@ -90,53 +117,58 @@ RaySample PathIntegrator::trace(const CameraRay& cameraRay, PixelSampler& sample
     throughput.array() *= scattered.value.array() / scattered.pdf;
     const float carried = throughput.maxCoeff();
     if ((throughput.array() == 0.0f).all()) break;
-    if (bounce >= 2 && carried < 1.0f) {
-      const float survival = std::max(0.05f, carried);
+    if (carried < worthFollowing) {
+      const float survival = std::max(0.05f, carried / worthFollowing);
       if (sampler.next().x() >= survival) break;
       throughput /= survival;
     }
     tail.pdf = scattered.pdf;
     widthPerMetre = std::max(widthPerMetre, scatteredWidthPerMetre(scattered.pdf));
-    Ray next;
-    next.origin = scattered.transmitted ? hit.originBeyond : hit.originHere;
-    next.direction = scattered.towards;
-    next.time = ray.time;
-    ray = next;
-    if (last && !in_.materials.emits()) {
+    if (scattered.transmitted) absorption = vertex.absorptionBeyond;
+    ray = vertex.leaving(scattered.towards, scattered.transmitted);
+    if (last && in_.lights.allFar && !in_.materials.emits()) {
       // Whatever surface comes next ends the path.
-      if (!in_.scene.occluded(ray)) add(lightsSeen(ray, tail), bounce + 1);
+      if (!in_.scene.occluded(ray)) add(lightsSeen(ray, absorption, tail), bounce + 1);
       break;
     }
   }
   return result;
 }
 
-Vec3f PathIntegrator::lightsSeen(const Ray& ray, const Tail& tail) const {
+Vec3f PathIntegrator::lightsSeen(const Ray& ray, const Vec3f& absorption, const Tail& tail) const {
   Vec3f sum = Vec3f::Zero();
   for (const auto& light : in_.lights.all) {
     LightSeen seen;
     if (!light->seenAlong(ray, seen)) continue;
     const bool both = !tail.fromCamera && light->isSampled() && seen.pdf > 0.0f;
-    sum += (both ? powerHeuristic(tail.pdf, seen.pdf * tail.chance) : 1.0f) * seen.radiance;
+    const float weight = both ? powerHeuristic(tail.pdf, seen.pdf * tail.chance) : 1.0f;
+    sum += weight * seen.radiance.cwiseProduct(transmittance(absorption, seen.distanceWorld));
   }
   return sum;
 }
 
-Vec3f PathIntegrator::directLight(const Vertex& vertex, const Light& light, const Vec2f& u, float chance) const {
+Vec3f PathIntegrator::directLight(const Vertex& vertex, const Light& light, const Vec2f& u,
+                                  float chance) const {
   const LightSample sample = light.sample(vertex.hit.position, u);
   if (!(sample.pdf > 0.0f)) return Vec3f::Zero();
   const Scattering scattering = vertex.bsdf.scattering(sample.towards);
   const Vec3f scattered = scattering.value.cwiseProduct(sample.radiance);
   if ((scattered.array() == 0.0f).all()) return Vec3f::Zero();
-  Ray shadow;
-  shadow.origin = sample.towards.dot(vertex.hit.facing) >= 0.0f ? vertex.hit.originHere : vertex.hit.originBeyond;
-  shadow.direction = sample.towards;
-  shadow.time = vertex.time;
-  shadow.farWorld = sample.distanceWorld * (1.0f - 1e-4f);
+  const bool beyond = sample.towards.dot(vertex.hit.facing) < 0.0f;
+  Ray shadow = vertex.leaving(sample.towards, beyond);
+  if (!std::isinf(sample.distanceWorld)) {
+    // The ray starts off the surface, and ends at the lamp all the same.
+    const Vec3f way = vertex.hit.position + sample.distanceWorld * sample.towards - shadow.origin;
+    const float length = way.norm();
+    if (!(length > 0.0f)) return Vec3f::Zero();
+    shadow.direction = way / length;
+    shadow.farWorld = length * (1.0f - 1e-4f);
+  }
   if (in_.scene.occluded(shadow)) return Vec3f::Zero();
   const float pdf = sample.pdf * chance;
   const float weight = sample.isPoint ? 1.0f : powerHeuristic(pdf, scattering.pdf);
-  return (weight / pdf) * scattered;
+  const Vec3f& absorption = beyond ? vertex.absorptionBeyond : vertex.absorptionHere;
+  return (weight / pdf) * scattered.cwiseProduct(transmittance(absorption, sample.distanceWorld));
 }
 
 }  // namespace ebru

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "render/colorimetry.h"
 
 namespace ebru {
 namespace {
@@ -41,10 +42,9 @@ Vec3d latLongDirection(const Vec2d& at) {
 }
 
 Environment::Environment(const LightOptions& options)
-    : Environment(
-          readEnvironment(options.image),
-          (Vec3d(options.colour[0], options.colour[1], options.colour[2]) * options.intensity).cast<float>(),
-          static_cast<float>(options.rotation_deg * pi / 180.0)) {}
+    : Environment(readEnvironment(options.image),
+                  (vectorOf(options.colour) * options.intensity).cast<float>(),
+                  static_cast<float>(options.rotation_deg * pi / 180.0)) {}
 
 Environment::Environment(LoadedImage image, const Vec3f& factor, float rotationRad)
     : image_(std::move(image)), factor_(factor), rotation_(rotationRad) {
@@ -71,12 +71,12 @@ void Environment::prepare() {
 void Environment::rowWeights(int y, std::vector<double>& weights) const {
   // The mean of a bilinear function over a pixel weighs its centre by 3/4 and its neighbours by 1/8, each
   // way.
-  const Vec3f luminance = factor_.cwiseProduct(Vec3f(0.2126f, 0.7152f, 0.0722f));
   std::vector<double> line(weights.size());
   for (int dy = -1; dy <= 1; ++dy) {
     const float* p = pixel(0, std::clamp(y + dy, 0, image_.height - 1));
     for (std::size_t x = 0; x < line.size(); ++x, p += image_.channels)
-      line[x] += (dy == 0 ? 0.75 : 0.125) * luminance.dot(Vec3f(p[0], p[1], p[2]));
+      line[x] +=
+          (dy == 0 ? 0.75 : 0.125) * luminanceRec709(factor_.cwiseProduct(Vec3f(p[0], p[1], p[2])).eval());
   }
   const double solidAngle = 1.0 / rows_[static_cast<std::size_t>(y)].cellsPerSteradian;
   const std::size_t last = line.size() - 1;

@@ -15,10 +15,6 @@
 namespace ebru {
 namespace {
 
-Vec3d vectorOf(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 /// A sky is two lights: the dome, as an environment, and its sun.
 void addSky(const LightOptions& options, std::vector<std::unique_ptr<const Light>>& lights) {
   const Vec3d towardsSun = directionOf(options);
@@ -57,8 +53,10 @@ Lights::Lights(std::vector<LightOptions> options) {
     else
       all.push_back(makeLight(light));
   }
-  for (const auto& light : all)
+  for (const auto& light : all) {
     if (light->isSampled()) sampled.push_back(light.get());
+    allFar &= light->isFar();
+  }
 }
 
 }  // namespace ebru

@@ -18,10 +18,6 @@ double cornerSolidAngle(double x, double y, double z) {
   return std::atan2(x * y, z * std::sqrt(x * x + y * y + z * z));
 }
 
-Vec3d vectorOf(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 /// Place in a rectangle that divides its solid angle as (u, v) divides the unit square [Urena et al. 2013,
 /// sec. 3]. Distances are taken in units of z, the one of the plane.
 Vec2d sampleSphericalRectangle(double x0, double x1, double y0, double y1, const Vec2d& u) {

@@ -16,6 +16,7 @@ class QuadLight : public Light {
   /// @throw UsageError if it faces nowhere or has no area
   explicit QuadLight(const LightOptions& options);
 
+  bool isFar() const override { return false; }
   LightSample sample(const Vec3f& fromWorld, const Vec2f& u) const override;
   bool seenAlong(const Ray& ray, LightSeen& seen) const override;
 

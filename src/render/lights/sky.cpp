@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/parallel.h"
+#include "render/colorimetry.h"
 #include "render/lights/environment.h"
 #include "render/lights/sun_spectrum.h"
 

@@ -18,10 +18,9 @@ constexpr float pi = std::numbers::pi_v<float>;
 }  // namespace
 
 SphereLight::SphereLight(const LightOptions& options)
-    : centre_(Vec3d(options.position[0], options.position[1], options.position[2]).cast<float>()),
+    : centre_(vectorOf(options.position).cast<float>()),
       radius_(static_cast<float>(options.radius)),
-      radiance_((Vec3d(options.colour[0], options.colour[1], options.colour[2]) * options.intensity)
-                    .cast<float>()) {
+      radiance_((vectorOf(options.colour) * options.intensity).cast<float>()) {
   if (!(radius_ > 0.0f))
     throw UsageError(
         fmt::format("light.radius: sphere: got {}, expected more than 0 m; a small sphere with a large "
@@ -62,7 +61,7 @@ LightSample SphereLight::sample(const Vec3f& fromWorld, const Vec2f& u) const {
     sample.pdf = 1.0f;
     return sample;
   }
-  sample.towards = Frame(axis).toWorld(sampleConeOf(u, cap)).normalized();
+  sample.towards = Frame(axis).toWorld(sampleCone(u, cap)).normalized();
   sample.distanceWorld = std::max(distanceAlong(towardsCentre, sample.towards, true), 0.0f);
   sample.radiance = radiance_;
   sample.pdf = 1.0f / (turn * cap);

@@ -13,6 +13,7 @@ class SphereLight : public Light {
   /// @throw UsageError if the radius is not positive
   explicit SphereLight(const LightOptions& options);
 
+  bool isFar() const override { return false; }
   LightSample sample(const Vec3f& fromWorld, const Vec2f& u) const override;
   bool seenAlong(const Ray& ray, LightSeen& seen) const override;
 

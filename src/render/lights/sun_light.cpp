@@ -20,7 +20,7 @@ Vec3d directionOf(const LightOptions& options) {
 
 SunLight::SunLight(const LightOptions& options)
     : SunLight(directionOf(options), options.angular_diameter_deg,
-               Vec3d(options.colour[0], options.colour[1], options.colour[2]) * (pi * options.intensity)) {}
+               vectorOf(options.colour) * (pi * options.intensity)) {}
 
 SunLight::SunLight(const Vec3d& towards, double angularDiameterDeg, const Vec3d& irradiance)
     : towards_(towards.cast<float>()), irradiance_(irradiance.cast<float>()) {
@@ -39,7 +39,7 @@ LightSample SunLight::sample(const Vec3f& /*fromWorld*/, const Vec2f& u) const {
   LightSample sample;
   sample.isPoint = pdf_ == 0.0f;
   sample.towards =
-      sample.isPoint ? towards_ : Frame(towards_).toWorld(sampleConeOf(u, oneMinusCosine_)).normalized();
+      sample.isPoint ? towards_ : Frame(towards_).toWorld(sampleCone(u, oneMinusCosine_)).normalized();
   sample.radiance = sample.isPoint ? irradiance_ : radiance_;
   sample.pdf = sample.isPoint ? 1.0f : pdf_;
   return sample;

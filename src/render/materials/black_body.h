@@ -7,21 +7,12 @@
 namespace ebru {
 
 /// CIE 1931 tristimulus values of Planck's radiance at a temperature: W / (m^2 sr), Y without the factor of
-/// 683 lm / W. Colour-matching functions by the analytic fit of [Wyman, Sloan and Shirley 2013, "Simple
-/// Analytic Approximations to the CIE XYZ Color Matching Functions"], their two-sided Gaussians; the sum is
-/// over wavelengths from 360 to 830 nm.
+/// 683 lm / W, summed over wavelengths from 360 to 830 nm.
 /// @param kelvin  100 to 40000
 Vec3d blackBodyXyz(double kelvin);
 
 /// The same in linear Rec. 709. Below some 1900 K the colour lies outside what Rec. 709 can show: the
 /// negative blue becomes 0, and the luminance stays.
 Vec3d blackBodyRec709(double kelvin);
-
-/// Y of a linear Rec. 709 colour.
-template <typename Colour>
-typename Colour::Scalar luminanceRec709(const Colour& c) {
-  using Scalar = typename Colour::Scalar;
-  return Scalar(0.2126729) * c.x() + Scalar(0.7151522) * c.y() + Scalar(0.0721750) * c.z();
-}
 
 }  // namespace ebru

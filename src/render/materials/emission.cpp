@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/colorimetry.h"
 #include "render/materials/black_body.h"
 
 namespace ebru {

@@ -45,7 +45,8 @@ OptionFields emissionFields(MaterialOptions& o) {
                   40000.0),
       optionField(
           "emission_strength", &o.emission_strength, "",
-          "Texture: factor on the map. Blackbody: luminance of the radiance at the higher temperature.", 0.0),
+          "Texture: factor on the map. Blackbody: luminance of the radiance at the higher temperature.", 0.0,
+          mostLight),
   };
 }
 
@@ -55,12 +56,13 @@ OptionFields textureFields(MaterialOptions& o) {
       optionField("displacement", &o.displacement, "m",
                   "How much farther out of the fluid a height of 1 in texture.height lies than one of 0; 0 "
                   "leaves the surface as it is. The surface is refined to the width of a pixel or of half a "
-                  "texel, the larger of them [Cook 1984]."),
+                  "texel, the larger of them [Cook 1984].",
+                  -mostWorld, mostWorld),
       optionField("displacement_zero", &o.displacement_zero, "",
-                  "The height that stays on the fluid's surface."),
+                  "The height that stays on the fluid's surface.", -1e6, 1e6),
       optionField(
           "displacement_triangles", &o.displacement_triangles, "",
-          "Most triangles the surface is refined to; they take about 300 bytes each. The run says when "
+          "Most triangles the surface is refined to; they take up to 250 bytes each. The run says when "
           "they do not suffice.",
           0, 500000000),
       optionChoice(
@@ -75,7 +77,8 @@ OptionFields textureFields(MaterialOptions& o) {
 
 OptionFields fields(MaterialOptions& o) {
   OptionFields result = withTypeCalled("type", o);
-  for (const OptionFields& more : {textureFields(o), emissionFields(o)}) result.insert(result.end(), more.begin(), more.end());
+  for (const OptionFields& more : {textureFields(o), emissionFields(o)})
+    result.insert(result.end(), more.begin(), more.end());
   return result;
 }
 

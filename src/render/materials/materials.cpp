@@ -6,21 +6,17 @@
 namespace ebru {
 namespace {
 
-Vec3f vec(const std::array<double, 3>& a) {
-  return Vec3d(a[0], a[1], a[2]).cast<float>();
-}
-
 Material makeMaterial(const MaterialOptions& o) {
   Material result;
   result.type = o.type == "diffuse"  ? MaterialType::diffuse
                 : o.type == "coated" ? MaterialType::coated
                 : o.type == "metal"  ? MaterialType::metal
                                      : MaterialType::dielectric;
-  result.albedo = vec(o.colour);
+  result.albedo = vectorOf(o.colour).cast<float>();
   result.roughness = static_cast<float>(o.roughness);
   result.ior = static_cast<float>(o.ior);
-  result.absorptionPerMetre =
-      -vec(o.transmission_colour).array().log().matrix() / static_cast<float>(o.transmission_depth);
+  result.absorptionPerMetre = -vectorOf(o.transmission_colour).cast<float>().array().log().matrix() /
+                              static_cast<float>(o.transmission_depth);
   return result;
 }
 
@@ -33,18 +29,28 @@ Materials::Materials(const SceneOptions& options, const TextureField* texture)
       fluid_(makeMaterial(options.material)),
       ground_(makeMaterial(options.ground.material)),
       groundChecker_(ground_) {
-  groundChecker_.albedo = vec(options.ground.checker_colour);
-  for (const ObstacleOptions& obstacle : options.obstacles) obstacles_.push_back(makeMaterial(obstacle.material));
+  groundChecker_.albedo = vectorOf(options.ground.checker_colour).cast<float>();
+  for (const ObstacleOptions& obstacle : options.obstacles)
+    obstacles_.push_back(makeMaterial(obstacle.material));
+}
+
+const Material& Materials::plain(const SurfaceHit& hit) const {
+  if (hit.kind == SurfaceKind::fluid) return fluid_;
+  return hit.kind == SurfaceKind::obstacle ? obstacles_[hit.obstacle] : ground_;
+}
+
+bool Materials::fills(const SurfaceHit& hit, Vec3f& absorptionPerMetre) const {
+  const Material& material = plain(hit);
+  if (material.type != MaterialType::dielectric) return false;
+  absorptionPerMetre = material.absorptionPerMetre;
+  return true;
 }
 
 Appearance Materials::at(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const {
   if (hit.kind == SurfaceKind::fluid) return fluid(hit, rayDirection, widthWorld);
   Appearance appearance;
-  if (hit.kind == SurfaceKind::obstacle) {
-    appearance.material = obstacles_[hit.obstacle];
-    return appearance;
-  }
-  appearance.material = ground_;
+  appearance.material = plain(hit);
+  if (hit.kind == SurfaceKind::obstacle) return appearance;
   const double square = groundOptions_.checker_size;
   if (square > 0.0) {
     const double x = std::floor((hit.position.x() - groundOptions_.centre[0]) / square);
