@@ -58,6 +58,22 @@ ChannelImage unfinishedPicture(const std::vector<PixelSamples>& samples, int wid
 
 }  // namespace
 
+class PreparedFrame {
+ public:
+  PreparedFrame(const SceneOptions& options, const CameraPath& path, const RenderInput& from)
+      : input(from),
+        exposure(path, options.camera.shutter, from.current->frame),
+        materials(options, from.texture) {}
+
+  RenderInput input;
+  Exposure exposure;
+  DisplacedSurface displaced;
+  FluidGeometry geometry;
+  std::optional<AlphaHoles> holes;
+  std::unique_ptr<Scene> scene;
+  Materials materials;
+};
+
 struct Renderer::Impl {
   SceneOptions options;
   std::uint64_t seed;
@@ -117,48 +133,50 @@ Renderer::Renderer(const SceneOptions& options, std::uint64_t seed, PhaseTimes* 
 
 Renderer::~Renderer() = default;
 
-ChannelImage Renderer::render(const RenderInput& input, const RenderProgress& progress) const {
-  if (!input.current) throw BugError("Renderer::render: no current frame");
-  const FluidFrame& fluid = *input.current;
-  const RenderOptions& options = impl_->options.render;
-  const Exposure exposure(impl_->path, impl_->options.camera.shutter, fluid.frame);
-  const Camera& camera = exposure.camera();
-  DisplacedSurface displaced;
-  FluidGeometry geometry = impl_->geometry(input, exposure, displaced);
-  if (exposure.movesFluid()) {
+std::shared_ptr<const PreparedFrame> Renderer::prepare(const RenderInput& input) const {
+  if (!input.current) throw BugError("Renderer::prepare: no current frame");
+  auto result = std::make_shared<PreparedFrame>(impl_->options, impl_->path, input);
+  PreparedFrame& frame = *result;
+  frame.geometry = impl_->geometry(input, frame.exposure, frame.displaced);
+  if (frame.exposure.movesFluid()) {
     const PhaseTimer timer(impl_->times, "render: motion");
-    addShutterMotion(input.previous, fluid, input.next, exposure.open(), exposure.close(), geometry);
+    addShutterMotion(input.previous, *input.current, input.next, frame.exposure.open(),
+                     frame.exposure.close(), frame.geometry);
   }
-  std::optional<AlphaHoles> holes;
   if (input.texture && input.texture->maps().alpha && impl_->options.material.alpha == "holes")
-    holes.emplace(geometry, *input.texture);
-  std::unique_ptr<Scene> scene;
-  {
-    const PhaseTimer timer(impl_->times, "render: hierarchy");
-    scene = std::make_unique<Scene>(geometry, impl_->obstacles, impl_->options.ground, fluid.source,
-                                    holes ? &*holes : nullptr);
-  }
-  const Materials materials(impl_->options, input.texture);
+    frame.holes.emplace(frame.geometry, *input.texture);
+  const PhaseTimer timer(impl_->times, "render: hierarchy");
+  frame.scene = std::make_unique<Scene>(frame.geometry, impl_->obstacles, impl_->options.ground,
+                                        input.current->source, frame.holes ? &*frame.holes : nullptr);
+  return result;
+}
+
+ChannelImage Renderer::render(const PreparedFrame& frame, const RenderProgress& progress) const {
+  const FluidFrame& fluid = *frame.input.current;
+  const RenderOptions& options = impl_->options.render;
+  const Camera& camera = frame.exposure.camera();
   std::vector<PixelSamples> samples;
   {
     const PhaseTimer timer(impl_->times, "render: light");
     const PathIntegrator integrator(
-        {*scene, materials, impl_->lights},
+        {*frame.scene, frame.materials, impl_->lights},
         {options.max_bounces, static_cast<float>(options.clamp), options.background});
     SampleProgress watch;
     if (progress)
       watch = [&](const std::vector<PixelSamples>& s) {
         progress(unfinishedPicture(s, camera.width(), camera.height()));
       };
-    samples = renderBeauty(exposure, integrator, impl_->samplingPlan(fluid), watch,
+    samples = renderBeauty(frame.exposure, integrator, impl_->samplingPlan(fluid), watch,
                            fmt::format("frame {}", fluid.frame));
   }
   const PhaseTimer timer(impl_->times, "render: data channels");
-  const MotionVectors motion(impl_->path, exposure.middle(), input.previous, fluid, input.next);
+  const MotionVectors motion(impl_->path, frame.exposure.middle(), frame.input.previous, fluid,
+                             frame.input.next);
   FrameBuffer buffer(camera.width(), camera.height(), options.variance);
-  writePixels(samples, {exposure, fluid, *scene, materials, motion}, options.variance, buffer);
+  writePixels(samples, {frame.exposure, fluid, *frame.scene, frame.materials, motion}, options.variance,
+              buffer);
   ChannelImage image = buffer.take();
-  impl_->addAttributes(fluid, exposure.camera(), image);
+  impl_->addAttributes(fluid, camera, image);
   return image;
 }
 
