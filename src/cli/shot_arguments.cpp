@@ -100,6 +100,8 @@ void addRunArguments(CLI::App& command, ShotArguments& arguments) {
       ->type_name("i/n")
       ->take_last();
   addOutAndThreads(command, arguments);
+  command.add_flag("--sequential", arguments.run.sequential,
+                   "Begin no frame before the one before is finished; takes longer and less memory");
   command.add_option("--states", arguments.states,
                      "Folder of the states, used where they fit this shot; without it OUT/states")
       ->type_name("DIR")

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <future>
 #include <new>
 
 #include "core/error.h"
@@ -125,26 +126,46 @@ void FramePipeline::checkVelocity(const std::vector<int>& frames) {
     log_.info(describe(check));
 }
 
-void FramePipeline::forEach(const std::vector<int>& frames, const std::function<void(int)>& work) {
+/// Unforeseen errors of `work` become messages that name the frame.
+void FramePipeline::saying(int frame, const std::function<void()>& work) const {
+  try {
+    work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("frame {}: not enough memory; a larger texture.texel_size or --sequential needs less",
+                                 frame));
+  } catch (const std::exception& error) {
+    throw BugError(fmt::format("frame {}: {}; re-run: {} --frames {} --overwrite", frame, error.what(),
+                               options_.command, frame));
+  }
+}
+
+void FramePipeline::forEach(const std::vector<int>& frames, const std::function<Finish(int)>& begin) {
   // Frames out of order go back in time, and the states on the way are what that starts from.
   states_->holdBack(!std::is_sorted(frames.begin(), frames.end()));
   log_.begin(frames.size());
+  // Of the frame before; its destructor waits.
+  std::future<void> finishing;
+  const auto waitForIt = [&] {
+    if (finishing.valid()) finishing.get();
+  };
   for (const int frame : frames) {
-    if (interruptRequested())
+    if (interruptRequested()) {
+      waitForIt();
       throw Interrupted(fmt::format("stopped before frame {}; --resume goes on from there", frame));
-    try {
-      work(frame);
-    } catch (const Error&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      throw InputError(fmt::format("frame {}: not enough memory; a larger texture.texel_size needs less", frame));
-    } catch (const std::exception& error) {
-      throw BugError(fmt::format("frame {}: {}; re-run: {} --frames {} --overwrite", frame, error.what(),
-                                 options_.command, frame));
     }
-    log_.frameDone(frame);
+    Finish finish;
+    saying(frame, [&] { finish = begin(frame); });
     store_->keepOnly(frame - 1, frame + 2);
+    waitForIt();
+    finishing = std::async(overlaps() ? std::launch::async : std::launch::deferred, [this, frame, finish] {
+      if (finish) saying(frame, finish);
+      log_.frameDone(frame);
+    });
+    if (!overlaps()) waitForIt();
   }
+  waitForIt();
   states_->holdBack(false);
   states_->removeSurplus();
 }

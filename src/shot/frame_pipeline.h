@@ -43,8 +43,12 @@ class FramePipeline {
   /// Says whether velocity and surface agree, in the middle of these frames. @throw InputError
   void checkVelocity(const std::vector<int>& frames);
 
-  /// Calls work(frame) for each, with interruptions and unforeseen errors turned into messages that say how to go on.
-  void forEach(const std::vector<int>& frames, const std::function<void(int)>& work);
+  /// What is left to do for a frame when all that later frames wait for is done. May be empty.
+  using Finish = std::function<void()>;
+  /// Calls begin(frame) for each, in order, and what that returns in the background while the next frame begins; one
+  /// after the other if the run is sequential or has one thread. Interruptions and unforeseen errors are turned into
+  /// messages that say how to go on; what has begun is finished before they are thrown.
+  void forEach(const std::vector<int>& frames, const std::function<Finish(int)>& begin);
 
   /// @return null outside the cache
   std::shared_ptr<const FluidFrame> fluid(int frame) { return store_->get(frame); }
@@ -55,6 +59,8 @@ class FramePipeline {
 
  private:
   std::vector<int> chooseFrames() const;
+  bool overlaps() const { return !options_.sequential && options_.threads != 1; }
+  void saying(int frame, const std::function<void()>& work) const;
 
   const Shot& shot_;
   const RunOptions& options_;

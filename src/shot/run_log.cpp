@@ -33,17 +33,25 @@ void RunLog::clearLine() {
   lineOpen_ = false;
 }
 
+void RunLog::finish() {
+  const std::lock_guard lock(mutex_);
+  clearLine();
+}
+
 void RunLog::info(const std::string& message) {
+  const std::lock_guard lock(mutex_);
   clearLine();
   logger().info(message);
 }
 
 void RunLog::warn(const std::string& message) {
+  const std::lock_guard lock(mutex_);
   clearLine();
   logger().warn(message);
 }
 
 void RunLog::begin(std::size_t total) {
+  const std::lock_guard lock(mutex_);
   total_ = total;
   done_ = 0;
   start_ = frameStart_ = Clock::now();
@@ -57,6 +65,7 @@ double RunLog::remainingSeconds() const {
 
 void RunLog::stage(int frame, const std::string& stage) {
   if (!terminal_) return;
+  const std::lock_guard lock(mutex_);
   const std::string left = done_ > 0 ? ", about " + printDuration(remainingSeconds()) + " left" : "";
   fmt::print(stderr, "\r\033[K{} of {} done, frame {}: {}{}", done_, total_, frame, stage, left);
   std::fflush(stderr);
@@ -64,6 +73,7 @@ void RunLog::stage(int frame, const std::string& stage) {
 }
 
 void RunLog::frameDone(int frame) {
+  const std::lock_guard lock(mutex_);
   ++done_;
   const double seconds = std::chrono::duration<double>(Clock::now() - frameStart_).count();
   frameStart_ = Clock::now();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace ebru {
 
 /// What a run says while it works: log lines and progress on stderr. On a terminal the progress is one line that is
-/// written over; elsewhere one plain line per frame. Not thread-safe.
+/// written over; elsewhere one plain line per frame. Thread-safe.
 class RunLog {
  public:
   RunLog();
@@ -28,13 +29,14 @@ class RunLog {
   void frameDone(int frame);
   double elapsedSeconds() const;
   /// Ends the progress line, so that other output can follow.
-  void finish() { clearLine(); }
+  void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
   double remainingSeconds() const;
   void clearLine();
 
+  std::mutex mutex_;
   bool terminal_;
   bool lineOpen_ = false;
   std::size_t total_ = 0, done_ = 0;

@@ -51,15 +51,17 @@ class SurfaceExport {
            (width_ == 0 || isFinishedAtlas(pipeline_.files().atlas(frame), width_, height_, print));
   }
 
-  void write(int frame) const {
+  /// @return what writes the files
+  FramePipeline::Finish begin(int frame) const {
     const auto texture = pipeline_.texture(frame);
-    const auto fluid = pipeline_.fluid(frame);
-    std::optional<SurfaceAtlas> atlas;
-    if (width_ > 0) atlas = writeAtlas(*fluid, *texture);
-    pipeline_.log().stage(frame, "geometry");
-    const PhaseTimer timer(&pipeline_.times(), "write geometry");
-    writeTexturedPly(pipeline_.files().geometry(frame), *fluid, *texture, fingerprint(frame), atlas ? &*atlas : nullptr,
-                     pipeline_.files().atlas(frame).filename().string());
+    return [this, frame, texture, fluid = pipeline_.fluid(frame), print = fingerprint(frame)] {
+      std::optional<SurfaceAtlas> atlas;
+      if (width_ > 0) atlas = writeAtlas(*fluid, *texture, print);
+      pipeline_.log().stage(frame, "geometry");
+      const PhaseTimer timer(&pipeline_.times(), "write geometry");
+      writeTexturedPly(pipeline_.files().geometry(frame), *fluid, *texture, print, atlas ? &*atlas : nullptr,
+                       pipeline_.files().atlas(frame).filename().string());
+    };
   }
 
  private:
@@ -70,14 +72,14 @@ class SurfaceExport {
     return Fingerprint().add(picture).add(fmt::format("atlas {}x{}", width_, height_)).text();
   }
 
-  SurfaceAtlas writeAtlas(const FluidFrame& fluid, const TextureField& texture) const {
+  SurfaceAtlas writeAtlas(const FluidFrame& fluid, const TextureField& texture, const std::string& print) const {
     PhaseTimes& times = pipeline_.times();
     pipeline_.log().stage(fluid.frame, "atlas");
     std::optional<PhaseTimer> timer(std::in_place, &times, "atlas: charts");
     SurfaceAtlas atlas = makeSurfaceAtlas(fluid.mesh, width_, height_, fmt::format("frame {}", fluid.frame));
     timer.emplace(&times, "atlas: look-ups");
     ChannelImage image = bakeAtlas(fluid, atlas, texture);
-    addShotAttributes(image, shot_, fingerprint(fluid.frame));
+    addShotAttributes(image, shot_, print);
     timer.emplace(&times, "write atlas");
     writeExr(pipeline_.files().atlas(fluid.frame), image);
     return atlas;
@@ -108,26 +110,31 @@ void renderShot(const Shot& shot, const RunOptions& options) {
       if (!warned) pipeline.log().warn(message);
       warned = true;
     };
-    pipeline.forEach(frames, [&](int frame) {
+    // Texture and hierarchy of a frame are made while the one before is lit and written.
+    pipeline.forEach(frames, [&](int frame) -> FramePipeline::Finish {
       const auto texture = pipeline.texture(frame);
-      pipeline.log().stage(frame, "picture");
+      pipeline.log().stage(frame, "surface");
       const auto previous = pipeline.fluid(frame - 1), current = pipeline.fluid(frame),
                  next = pipeline.fluid(frame + 1);
-      RenderProgress watch;
-      if (previews)
-        watch = [&, occasionally = Occasionally()](const ChannelImage& unfinished) mutable {
-          if (occasionally.now()) previews->writePartial(frame, unfinished);
-        };
-      ChannelImage image = renderer.render({previous.get(), current.get(), next.get(), texture.get(),
-                                             static_cast<float>(shot.texture.texel_size), warnOnce},
-                                            watch);
-      addShotAttributes(image, shot, pipeline.identity().picture(frame));
-      pipeline.log().stage(frame, "writing");
-      {
-        const PhaseTimer timer(&pipeline.times(), "write picture");
-        writeExr(files.picture(frame), image, shot.output);
-      }
-      if (previews) previews->write(frame, image);
+      const auto prepared = renderer.prepare({previous.get(), current.get(), next.get(), texture.get(),
+                                              static_cast<float>(shot.texture.texel_size), warnOnce});
+      const std::string print = pipeline.identity().picture(frame);
+      return [&, texture, previous, current, next, prepared, print, frame] {
+        pipeline.log().stage(frame, "picture");
+        RenderProgress watch;
+        if (previews)
+          watch = [&, occasionally = Occasionally()](const ChannelImage& unfinished) mutable {
+            if (occasionally.now()) previews->writePartial(frame, unfinished);
+          };
+        ChannelImage image = renderer.render(*prepared, watch);
+        addShotAttributes(image, shot, print);
+        pipeline.log().stage(frame, "writing");
+        {
+          const PhaseTimer timer(&pipeline.times(), "write picture");
+          writeExr(files.picture(frame), image, shot.output);
+        }
+        if (previews) previews->write(frame, image);
+      };
     });
   }
 
@@ -149,7 +156,10 @@ void synthesiseShot(const Shot& shot, const RunOptions& options) {
   const std::vector<int> frames =
       pipeline.framesToDo([&](int f) { return states.pathOf(f); }, [&](int f) { return states.valid(f); });
   if (!frames.empty()) pipeline.checkVelocity(frames);
-  pipeline.forEach(frames, [&](int frame) { pipeline.texture(frame); });
+  pipeline.forEach(frames, [&](int frame) -> FramePipeline::Finish {
+    pipeline.texture(frame);
+    return {};
+  });
   pipeline.summarise(frames.size(), frames.size() == 1 ? "state" : "states",
                      {"states  " + states.pathOf(shot.shot.first_frame).parent_path().string()});
 }
@@ -161,7 +171,7 @@ void exportShot(const Shot& shot, const RunOptions& options) {
   const OutputFiles& files = pipeline.files();
   const std::vector<int> frames = pipeline.framesToDo([&](int f) { return surfaces.existing(f); },
                                                       [&](int f) { return surfaces.finished(f); });
-  pipeline.forEach(frames, [&](int frame) { surfaces.write(frame); });
+  pipeline.forEach(frames, [&](int frame) { return surfaces.begin(frame); });
   std::vector<std::string> places = {"surfaces  " + files.geometryPattern().string()};
   if (options.atlasWidth > 0) places.push_back("atlases   " + files.atlasPattern().string());
   pipeline.summarise(frames.size(), frames.size() == 1 ? "surface" : "surfaces", places);

@@ -21,6 +21,7 @@ struct RunOptions {
   bool preview = false;          ///< PNGs and a movie too
   int atlasWidth = 0, atlasHeight = 0;  ///< export: texels of the atlas of each frame; 0 for none
   int threads = 0;               ///< 0 for the machine's
+  bool sequential = false;       ///< no frame begins before the one before is finished
   std::string command;           ///< repeats this run; for messages
 };
 
