@@ -3,7 +3,8 @@
 A picture brings R, G, B and their estimated variances (render.variance). Under the hypothesis that both have the same
 expectation, the difference divided by its standard deviation is normal; the smallest p-value of all pixels is judged at a
 level that Sidak's correction makes right for their number [in the manner of Mitsuba's tests]. The mean over blocks of 8 x 8
-pixels and over the whole picture is judged too, and sees a bias that drowns in the noise of a pixel.
+pixels and over the whole picture is judged too, and sees a bias that drowns in the noise of a pixel. Pictures with values
+that no test can judge (not finite, a negative variance, no samples) are refused before.
 """
 
 import dataclasses
@@ -68,16 +69,32 @@ def half_rounding(values):
     return (np.maximum(np.abs(values), 2.0**-14) * 2.0**-10) ** 2 / 12.0
 
 
+def impossible(picture, name):
+    """@return a line for each kind of value that cannot be judged, with the first pixel that has it"""
+    bad = []
+    for what, right in (
+        ("mean: got values that are not finite", np.isfinite(picture.mean)),
+        ("variance: got values that are negative or not finite", np.isfinite(picture.variance) & (picture.variance >= 0.0)),
+        ("samples: got numbers that are not above 0", np.isfinite(picture.samples) & (picture.samples > 0.0)),
+    ):
+        places = np.argwhere(~right.reshape(*right.shape[:2], -1).all(axis=-1))
+        if len(places):
+            bad.append(f"{name}: {what}, in {len(places)} pixels, the first ({places[0][1]}, {places[0][0]})")
+    return bad
+
+
 def compare(result, reference):
     """@return what is wrong, one line each; empty if the pictures agree."""
     if result.mean.shape != reference.mean.shape:
         return [f"size: got {result.mean.shape[:2]}, expected {reference.mean.shape[:2]}"]
+    bad = impossible(result, "result") + impossible(reference, "reference")
+    if bad:
+        return bad
     # The reference knows the variance of one sample better than the result does.
     of_sample = reference.variance * reference.samples[..., None]
     variance = reference.variance + of_sample / result.samples[..., None]
     variance += half_rounding(reference.mean) + half_rounding(result.mean)
     difference = result.mean - reference.mean
-    bad = []
     for size, name in ((1, "pixel"), (8, "block of 8 x 8 pixels"), (min(difference.shape[:2]), "picture")):
         p, (y, x, channel) = smallest_p(blocks(difference, size), blocks(variance, size))
         if p < SIGNIFICANCE:
