@@ -29,9 +29,13 @@ def main():
     dead.mean[20, 30] = 0.0
     dark = noisy(truth, SPP, 4)
     dark.mean[16:24, 40:48] *= 0.9
+    corner = noisy(truth, SPP, 7)
+    corner.mean[48:, 88:] *= 0.8  # 6 rows only: the height is no multiple of 8
     bright = noisy(truth, SPP, 5)
     bright.mean *= 1.01
-    for name, picture in (("pixel", dead), ("block", dark), ("picture", bright)):
+    right = noisy(truth, SPP, 8)
+    right.mean[:, SIZE[0] :] *= 1.02  # beyond the largest square from the upper left corner
+    for name, picture in (("pixel", dead), ("block", dark), ("block", corner), ("picture", bright), ("picture", right)):
         bad = z_test.compare(picture, reference)
         if not any(line.startswith(name) for line in bad):
             sys.exit(f"a wrong {name} was not seen: {bad}")

@@ -50,10 +50,12 @@ def write(path, values):
     buffer.write(str(path))
 
 
-def blocks(values, size):
-    """Sums over blocks of `size` x `size` pixels; what is left over at the edges is cut off."""
-    height, width = (n // size * size for n in values.shape[:2])
-    return values[:height, :width].reshape(height // size, size, width // size, size, -1).sum(axis=(1, 3))
+def blocks(values, shape):
+    """Sums over blocks of `shape` (height, width) from the upper left corner on; those at the other edges may be smaller."""
+    height, width = shape
+    padding = [(0, -n % side) for n, side in zip(values.shape, shape)] + [(0, 0)]
+    values = np.pad(values, padding)
+    return values.reshape(values.shape[0] // height, height, values.shape[1] // width, width, -1).sum(axis=(1, 3))
 
 
 def smallest_p(difference, variance):
@@ -95,12 +97,14 @@ def compare(result, reference):
     variance = reference.variance + of_sample / result.samples[..., None]
     variance += half_rounding(reference.mean) + half_rounding(result.mean)
     difference = result.mean - reference.mean
-    for size, name in ((1, "pixel"), (8, "block of 8 x 8 pixels"), (min(difference.shape[:2]), "picture")):
-        p, (y, x, channel) = smallest_p(blocks(difference, size), blocks(variance, size))
+    whole = difference.shape[:2]
+    for shape, name in (((1, 1), "pixel"), ((8, 8), "block of 8 x 8 pixels"), (whole, "picture")):
+        sums, pixels = blocks(difference, shape), blocks(np.ones((*whole, 1)), shape)
+        p, (y, x, channel) = smallest_p(sums, blocks(variance, shape))
         if p < SIGNIFICANCE:
             bad.append(
-                f"{name} at ({x * size}, {y * size}), {COLOURS[channel]}: got p = {p:.2g}, expected at least "
-                f"{SIGNIFICANCE}; mean difference {blocks(difference, size)[y, x, channel] / size**2:.3g}"
+                f"{name} at ({x * shape[1]}, {y * shape[0]}), {COLOURS[channel]}: got p = {p:.2g}, expected at least "
+                f"{SIGNIFICANCE}; mean difference {sums[y, x, channel] / pixels[y, x, 0]:.3g}"
             )
     return bad
 
