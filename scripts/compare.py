@@ -5,7 +5,8 @@
     scripts/compare.py scenes/dam_break.toml --methods particles,synthesis --frames 1-12 --size 320x180 --out /tmp/compared
 
 Writes OUT/METHOD/ (frames, metrics.json, report.html), OUT/comparison.json and OUT/comparison.html, and a table to the
-terminal. Frames that are there already are kept when they are of this shot (`ebru render --resume`).
+terminal. Frames that are there already are kept when they are of this shot (`ebru render --resume`). Only the frames asked
+for are judged; others that lie in the folder are left out.
 Exit code: 0, 2 usage, 3 input, 4 output, else that of ebru.
 """
 
@@ -80,6 +81,16 @@ def render_all(ebru, shot_file, methods, out, arguments):
         sys.exit(max(codes))
 
 
+def frames_of_run(folder, name, numbers):
+    """@return {frame number: path} of what the run has made; what else lies there may be of other settings"""
+    paths = {number: folder / f"{name}.{number:04}.exr" for number in sorted(numbers)}
+    others = sorted(p.name for p in folder.glob("[!.]*.exr") if p not in paths.values())
+    if others:
+        print(f"compare.py: note: {folder}: {len(others)} pictures that were not asked for are left out: {others[0]}"
+              f"{' to ' + others[-1] if len(others) > 1 else ''}", file=sys.stderr)
+    return paths
+
+
 def strip(paths):
     """@return [(frame number, H x W x 3 uint8)] of the lit picture, evenly in time"""
     numbers = sorted(paths)
@@ -98,10 +109,11 @@ def main():
     out = (arguments.out or command.ROOT / "out" / f"{tables['shot']['name']}_comparison").absolute()
     settings = command.settings_of(arguments, tables)
     render_all(arguments.ebru or built_ebru(), shot_file, methods, out, arguments)
+    numbers = shot.frames_of(tables, arguments.frames)
 
     results, pictures, strips = [], {}, {}
     for method in methods:
-        paths = frames.find(out / method)
+        paths = frames_of_run(out / method, tables["shot"]["name"], numbers)
         result, pictures[method] = sequence.evaluate(paths, settings, command.Progress(method))
         result["gates"] = []
         command.write_json(out / method / "metrics.json", result)

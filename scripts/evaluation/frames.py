@@ -127,6 +127,24 @@ def _placed(data, spec):
     return whole
 
 
+def check_one_size(paths):
+    """@param paths  {frame number: EXR file}; read() says what is wrong with one that cannot be opened
+    @throw InputError"""
+    first = None
+    for path in paths.values():
+        picture = oiio.ImageInput.open(str(path))
+        if picture is None:
+            oiio.geterror()
+            continue
+        spec = picture.spec()
+        picture.close()
+        size = (spec.full_width, spec.full_height)
+        first = first or (path, size)
+        if size != first[1]:
+            raise InputError(f"{path}: size: got {size[0]} x {size[1]} px, expected {first[1][0]} x {first[1][1]} as in "
+                             f"{first[0].name}; render the sequence in one size")
+
+
 def read(path, number, layout="ebru", colour="albedo"):
     """@throw InputError if the file is no whole EXR picture"""
     picture = oiio.ImageInput.open(str(path))

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 
 from evaluation import coherence, frames, likeness, masks, metrics, motion, optical_flow, summing, windows
-from evaluation.errors import InputError, NotComputed
+from evaluation.errors import NotComputed
 from evaluation.exemplar import Exemplar
 from evaluation.frame_item import item_of
 from evaluation.window_search import WindowSearch
@@ -160,9 +160,6 @@ def _measure(number):
 def _measure_pair(frame, following, figures):
     """@return the estimated flow and the warp error, H x W x 2 and H x W, for the report"""
     settings = _run.settings
-    if (following.width, following.height) != (frame.width, frame.height):
-        raise InputError(f"{following.path}: size: got {following.width} x {following.height} px, expected {frame.width} x "
-                         f"{frame.height} as in {frame.path.name}; render the sequence in one size")
     pair_ids = [name for name, metric in metrics.METRICS.items() if metric.pair]
     try:
         matched = masks.matched(frame, following, _texel_size_or_none(frame, settings), _fps(frame, settings))
@@ -221,6 +218,7 @@ def evaluate(paths, settings, progress=lambda done, total: None):
     """@param paths  {frame number: EXR file}; only consecutive numbers make pairs
     @return the result as it is written to metrics.json, and pictures for the report (see frame_pictures.py)
     @throw InputError"""
+    frames.check_one_size(paths)
     numbers = sorted(paths)
     run = _Run(paths, settings, _search(settings), False, _shown(numbers))
     _begin(run)

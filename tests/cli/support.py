@@ -86,6 +86,17 @@ def render(shot, out, *arguments, expect=0, **options):
     return ebru("render", shot, "--out", out, *arguments, expect=expect, **options)
 
 
+def methods():
+    """Names of all methods, as `ebru methods` lists them."""
+    return [line.split()[0] for line in ebru("methods").stdout.splitlines()]
+
+
+def texture_methods():
+    """All but `plain`: it shows the material alone and has neither texture nor states, which is what the tests that go
+    through the methods look at."""
+    return [name for name in methods() if name != "plain"]
+
+
 def says(run, *parts):
     """Every part is in what the run said on stderr."""
     for part in parts:

@@ -34,7 +34,7 @@ def whole_so_far(out, expected):
 
 
 def test_killed_runs_leave_whole_files_and_resume_to_the_same(folder):
-    for method in ("particles", "synthesis", "quilt"):
+    for method in texture_methods():
         shot, whole, out = write_shot(folder, method=method), folder / f"{method}_whole", folder / f"{method}_out"
         render(shot, whole)
         expected = pictures(whole)

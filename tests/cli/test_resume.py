@@ -2,11 +2,9 @@
 
 from support import *
 
-METHODS = ["particles", "synthesis", "quilt"]
-
 
 def test_one_run_equals_a_run_and_its_continuation(folder):
-    for method in METHODS:
+    for method in texture_methods():
         shot = write_shot(folder, method=method)
         whole, parts = folder / f"{method}_whole", folder / f"{method}_parts"
         render(shot, whole)

@@ -11,7 +11,7 @@ period_frames = 8"""
 
 
 def test_still_fluid_gives_the_same_picture_every_frame_and_no_motion(folder):
-    for method in ("particles", "synthesis"):
+    for method in texture_methods():
         shot = write_shot(folder, STILL, method=method, last=4, position="[0, -1.6, 0.5]", target="[0, 0, 0]",
                           ground=-0.3, texel=0.02)
         out = folder / method

@@ -1,15 +1,25 @@
 """One thread and two give the same bits."""
 
+import exr
 from support import *
 
 
 def test_pictures_and_states_do_not_depend_on_the_threads(folder):
-    for method in ("particles", "synthesis"):
+    for method in texture_methods():
         shot = write_shot(folder, method=method, last=4)
         for threads in (1, 2):
             render(shot, folder / f"{method}{threads}", "--threads", threads, "--keep-states")
         assert_same_files(files(folder / f"{method}2"), files(folder / f"{method}1"), method)
         assert len(files(folder / f"{method}1/states")) == 4
+
+
+def test_these_shots_look_ahead(folder):
+    """Without its look-ahead quilt lays other texture in the shot above, so what looks ahead has run there."""
+    shot = write_shot(folder, method="quilt", last=4)
+    render(shot, folder / "ahead", "--frames", "4")
+    render(shot, folder / "blind", "--frames", "4", "--set", "texture.look_ahead=0")
+    ahead, blind = (exr.read(folder / name / "tiny.0004.exr")[3]["texture.s"] for name in ("ahead", "blind"))
+    assert ahead != blind
 
 
 def test_caches_read_the_same(folder):

@@ -179,6 +179,9 @@ def test_frames_of_different_sizes(folder):
     paths = write(folder / "frames", scene, numbers=[1])
     paths |= write(folder / "frames", scene.with_(width=90), numbers=[2])
     refused(lambda: evaluate(paths, exemplar), "plane.0002.exr", "90 x 80", "96 x 80", "plane.0001.exr")
+    # No pair, but a mean over both.
+    paths[7] = paths.pop(2)
+    refused(lambda: evaluate(paths, exemplar), "plane.0002.exr", "90 x 80", "96 x 80", "plane.0001.exr")
 
 
 def test_folders_without_one_sequence(folder):

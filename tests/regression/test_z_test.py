@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The z-test accepts noise and sees a pixel, a block and a picture that are wrong."""
+"""The z-test accepts noise, sees a pixel, a block and a picture that are wrong, and refuses values it cannot judge."""
 
 import sys
 
@@ -29,12 +29,24 @@ def main():
     dead.mean[20, 30] = 0.0
     dark = noisy(truth, SPP, 4)
     dark.mean[16:24, 40:48] *= 0.9
+    corner = noisy(truth, SPP, 7)
+    corner.mean[48:, 88:] *= 0.8  # 6 rows only: the height is no multiple of 8
     bright = noisy(truth, SPP, 5)
     bright.mean *= 1.01
-    for name, picture in (("pixel", dead), ("block", dark), ("picture", bright)):
+    right = noisy(truth, SPP, 8)
+    right.mean[:, SIZE[0] :] *= 1.02  # beyond the largest square from the upper left corner
+    for name, picture in (("pixel", dead), ("block", dark), ("block", corner), ("picture", bright), ("picture", right)):
         bad = z_test.compare(picture, reference)
         if not any(line.startswith(name) for line in bad):
             sys.exit(f"a wrong {name} was not seen: {bad}")
+    for plane, value in (("mean", np.nan), ("mean", -np.inf), ("variance", np.nan), ("variance", np.inf), ("variance", -1e-6),
+                         ("samples", 0.0), ("samples", np.nan)):
+        for name, at in (("result", 0), ("reference", 1)):
+            pictures = [noisy(truth, SPP, 6), noisy(truth, REFERENCE_SPP, 1)]
+            getattr(pictures[at], plane)[20, 30] = value
+            bad = z_test.compare(*pictures)
+            if not (len(bad) == 1 and bad[0].startswith(name) and plane in bad[0] and "(30, 20)" in bad[0]):
+                sys.exit(f"{plane} {value} of the {name}: got {bad}, expected one line that says so")
     print("ok")
 
 

@@ -3,7 +3,8 @@
 A picture brings R, G, B and their estimated variances (render.variance). Under the hypothesis that both have the same
 expectation, the difference divided by its standard deviation is normal; the smallest p-value of all pixels is judged at a
 level that Sidak's correction makes right for their number [in the manner of Mitsuba's tests]. The mean over blocks of 8 x 8
-pixels and over the whole picture is judged too, and sees a bias that drowns in the noise of a pixel.
+pixels and over the whole picture is judged too, and sees a bias that drowns in the noise of a pixel. Pictures with values
+that no test can judge (not finite, a negative variance, no samples) are refused before.
 """
 
 import dataclasses
@@ -49,10 +50,12 @@ def write(path, values):
     buffer.write(str(path))
 
 
-def blocks(values, size):
-    """Sums over blocks of `size` x `size` pixels; what is left over at the edges is cut off."""
-    height, width = (n // size * size for n in values.shape[:2])
-    return values[:height, :width].reshape(height // size, size, width // size, size, -1).sum(axis=(1, 3))
+def blocks(values, shape):
+    """Sums over blocks of `shape` (height, width) from the upper left corner on; those at the other edges may be smaller."""
+    height, width = shape
+    padding = [(0, -n % side) for n, side in zip(values.shape, shape)] + [(0, 0)]
+    values = np.pad(values, padding)
+    return values.reshape(values.shape[0] // height, height, values.shape[1] // width, width, -1).sum(axis=(1, 3))
 
 
 def smallest_p(difference, variance):
@@ -68,22 +71,40 @@ def half_rounding(values):
     return (np.maximum(np.abs(values), 2.0**-14) * 2.0**-10) ** 2 / 12.0
 
 
+def impossible(picture, name):
+    """@return a line for each kind of value that cannot be judged, with the first pixel that has it"""
+    bad = []
+    for what, right in (
+        ("mean: got values that are not finite", np.isfinite(picture.mean)),
+        ("variance: got values that are negative or not finite", np.isfinite(picture.variance) & (picture.variance >= 0.0)),
+        ("samples: got numbers that are not above 0", np.isfinite(picture.samples) & (picture.samples > 0.0)),
+    ):
+        places = np.argwhere(~right.reshape(*right.shape[:2], -1).all(axis=-1))
+        if len(places):
+            bad.append(f"{name}: {what}, in {len(places)} pixels, the first ({places[0][1]}, {places[0][0]})")
+    return bad
+
+
 def compare(result, reference):
     """@return what is wrong, one line each; empty if the pictures agree."""
     if result.mean.shape != reference.mean.shape:
         return [f"size: got {result.mean.shape[:2]}, expected {reference.mean.shape[:2]}"]
+    bad = impossible(result, "result") + impossible(reference, "reference")
+    if bad:
+        return bad
     # The reference knows the variance of one sample better than the result does.
     of_sample = reference.variance * reference.samples[..., None]
     variance = reference.variance + of_sample / result.samples[..., None]
     variance += half_rounding(reference.mean) + half_rounding(result.mean)
     difference = result.mean - reference.mean
-    bad = []
-    for size, name in ((1, "pixel"), (8, "block of 8 x 8 pixels"), (min(difference.shape[:2]), "picture")):
-        p, (y, x, channel) = smallest_p(blocks(difference, size), blocks(variance, size))
+    whole = difference.shape[:2]
+    for shape, name in (((1, 1), "pixel"), ((8, 8), "block of 8 x 8 pixels"), (whole, "picture")):
+        sums, pixels = blocks(difference, shape), blocks(np.ones((*whole, 1)), shape)
+        p, (y, x, channel) = smallest_p(sums, blocks(variance, shape))
         if p < SIGNIFICANCE:
             bad.append(
-                f"{name} at ({x * size}, {y * size}), {COLOURS[channel]}: got p = {p:.2g}, expected at least "
-                f"{SIGNIFICANCE}; mean difference {blocks(difference, size)[y, x, channel] / size**2:.3g}"
+                f"{name} at ({x * shape[1]}, {y * shape[0]}), {COLOURS[channel]}: got p = {p:.2g}, expected at least "
+                f"{SIGNIFICANCE}; mean difference {sums[y, x, channel] / pixels[y, x, 0]:.3g}"
             )
     return bad
 
