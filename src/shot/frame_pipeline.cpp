@@ -65,8 +65,11 @@ FramePipeline::FramePipeline(const Shot& shot, const RunOptions& options, bool s
                              stateFolder})
     removeStaleTemporaries(folder);
   store_ = std::make_unique<FrameStore>(*sequence_, options.threads != 1, &times_);
-  states_ = std::make_unique<StateStore>(stateFolder, shot.shot.name, statePolicy(options, statesMatter),
-                                         [this](int frame) { return identity_.state(frame); });
+  states_ = std::make_unique<StateStore>(
+      stateFolder, shot.shot.name, statePolicy(options, statesMatter), [this](int frame) {
+        const bool exists = frame >= shot_.shot.first_frame && frame <= sequence_->lastFrame();
+        return exists ? identity_.state(frame) : std::string();
+      });
   timeline_ = std::make_unique<TextureTimeline>(shot, *store_, *states_, &times_,
                                                 [this](int frame) { log_.stage(frame, "texture"); });
 }

@@ -70,6 +70,15 @@ def test_other_shots_states_are_not_used(folder):
     assert_same_files(pictures(out), pictures(whole))
 
 
+def test_changed_shot_leaves_states_to_go_on_from(folder):
+    shot, out = write_shot(folder, last=8), folder / "out"
+    changed = ["--set", "texture.texel_size=0.02"]
+    render(shot, out)
+    render(shot, out, "--resume", *changed, "--frames", "1-4")
+    run = ebru("synth", shot, "--out", out, "--resume", *changed, "--frames", "3-4")
+    says(run, "frames 3-4 are done already")
+
+
 def test_resume_notices_that_a_map_changed(folder):
     exemplars = ROOT / "scenes/exemplars"
     for name in ("foam", "soup", "foam_height"):
