@@ -57,7 +57,8 @@ StateStore::Policy statePolicy(const RunOptions& options, bool statesMatter) {
 
 FramePipeline::FramePipeline(const Shot& shot, const RunOptions& options, bool statesMatter)
     : shot_(shot), options_(options), threads_(options.threads), files_(options.out, shot.shot.name),
-      identity_(shot), sequence_(openFluidSequence(shot.fluid, shot.shot.fps)), frames_(chooseFrames()) {
+      sequence_(openFluidSequence(shot.fluid, shot.shot.fps)), identity_(shot, sequence_->lastFrame()),
+      frames_(chooseFrames()) {
   const std::filesystem::path stateFolder = options.states.empty() ? files_.states() : options.states;
   checkWritable(files_.folder());
   checkWritable(stateFolder);
