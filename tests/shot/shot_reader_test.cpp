@@ -323,5 +323,26 @@ TEST_F(ShotReader, FingerprintsSeeTheExemplarsContentAndNotItsFolder) {
   EXPECT_EQ(stateFingerprint(readShot(elsewhere / "dam.toml", {})), one);
 }
 
+TEST_F(ShotReader, FingerprintsDoNotDependOnHowFilesAreNamed) {
+  std::ofstream(folder_ / "pebbles.png") << "one";
+  const std::string state = stateFingerprint(read(good)), picture = pictureFingerprint(read(good));
+  const std::string absolute = folder_.string();
+  const std::vector<std::string> otherNames = {
+      "texture.exemplar=" + absolute + "/pebbles.png", "texture.exemplar=./pebbles.png",
+      "fluid.path=" + absolute + "/caches/dam.####.vdb", "fluid.path=caches/../caches/dam.####.vdb"};
+  for (const std::string& setting : otherNames) {
+    EXPECT_EQ(stateFingerprint(read(good, {setting})), state) << setting;
+    EXPECT_EQ(pictureFingerprint(read(good, {setting})), picture) << setting;
+  }
+  EXPECT_NE(stateFingerprint(read(good, {"fluid.path=caches/lava.####.vdb"})), state);
+
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  const std::string relative = stateFingerprint(readShot("dam.toml", {})), absoluteShot =
+      stateFingerprint(readShot(folder_ / "dam.toml", {}));
+  std::filesystem::current_path(here);
+  EXPECT_EQ(relative, absoluteShot);
+}
+
 }  // namespace
 }  // namespace ebru
