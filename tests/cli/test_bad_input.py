@@ -149,6 +149,8 @@ def test_frames_outside_the_cache(folder):
 def test_frames_that_are_none(folder):
     refuses(folder, write_shot(folder), USAGE, '"1-x"', arguments=["--frames", "1-x"])
     refuses(folder, write_shot(folder), USAGE, "0/3", arguments=["--chunk", "0/3"])
+    refuses(folder, write_shot(folder), USAGE, '"1-4y1"', "at least one frame", arguments=["--frames", "1-4y1"])
+    says(ebru("inspect", write_shot(folder), "--frames", "1-4y1", expect=USAGE), '"1-4y1"', "at least one frame")
 
 
 def test_no_cache_at_all(folder):
