@@ -132,9 +132,12 @@ def test_texel_size_zero(folder):
     refuses(folder, write_shot(folder, texel=0), USAGE, "tiny.toml:15: texture.texel_size: got 0 m, expected")
 
 
-def test_texel_size_that_needs_more_particles_than_memory(folder):
+def test_texel_size_that_needs_more_than_memory(folder):
     for method in ("particles", "synthesis", "quilt"):
         refuses(folder, write_shot(folder, method=method, texel="1e-9"), INPUT, "texture.texel_size", "particles")
+    refuses(folder, write_shot(folder, method="erosion", texel="1e-9"), INPUT, "texture.texel_size", "places")
+    refuses(folder, write_shot(folder, method="erosion"), INPUT, "texture.erosion.radius: got 0.0001 texels", "triangles",
+            arguments=["--set", "texture.erosion.radius=1e-4"])
 
 
 def test_frames_outside_the_cache(folder):
