@@ -41,7 +41,6 @@ void Previews::write(int frame, const ChannelImage& picture) const {
 }
 
 void Previews::writePartial(int frame, const ChannelImage& picture) const {
-  const PhaseTimer timer(&times_, "write preview");
   writer_.writePartial(files_.preview(frame), picture);
 }
 

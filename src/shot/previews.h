@@ -20,7 +20,7 @@ class Previews {
 
   /// Of a finished picture with its header (addShotAttributes), whose file is there. Same bytes as remake gives.
   void write(int frame, const ChannelImage& picture) const;
-  /// Of a picture that is still being rendered, under the name the finished one will have.
+  /// Of a picture that is still being rendered, under the name the finished one will have. Not timed: rendering is.
   void writePartial(int frame, const ChannelImage& picture) const;
   /// Reads the finished picture from its file. @throw InputError, OutputError
   void remake(int frame) const;

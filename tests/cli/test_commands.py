@@ -90,6 +90,16 @@ def test_movie_is_of_all_frames_whichever_a_run_is_over(folder):
     assert movie_frames(movie) == 1
 
 
+def test_shares_of_the_phases_add_up(folder):
+    lines = render(write_shot(folder, last=3), folder / "out", "--preview").stdout.splitlines()
+    begin = next(i for i, line in enumerate(lines) if line.startswith("phase"))
+    end = next(i for i, line in enumerate(lines) if line.startswith("all "))
+    seconds = {line[:20].strip(): float(line.split()[-2]) for line in lines[begin + 1 : end + 1]}
+    total = seconds.pop("all")
+    assert "check velocity" in seconds, seconds
+    assert abs(sum(seconds.values()) - total) <= 0.01 * len(seconds), (seconds, total)
+
+
 def test_run_without_ffmpeg_keeps_the_frames(folder):
     shot, out = write_shot(folder, last=2), folder / "out"
     run = render(shot, out, "--preview", env={**os.environ, "PATH": "/nonexistent"})
