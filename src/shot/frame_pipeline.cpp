@@ -33,12 +33,16 @@ void checkWritable(const std::filesystem::path& folder) {
                                   std::strerror(errno)));
 }
 
-/// Frames missing from the middle of a cache are found before the work on the others begins.
-void checkPresent(const FluidOptions& fluid, const std::vector<int>& frames) {
+/// Frames missing from the middle of a cache are found before the work on the others begins. Texture goes through all from
+/// the shot's first on; a state behind a gap is no way around it, since it does not fit a cache that lacks a file.
+/// @param last  the last one asked for; @param end  of the cache
+void checkPresent(const Shot& shot, int last, int end) {
+  const FluidOptions& fluid = shot.fluid;
   if (!readsFiles(fluid) || readsOneFile(fluid)) return;
   const std::vector<int> present = FramePattern(fluid.path).list();
+  if (last > shot.shot.first_frame) last = std::min(last + lookAheadOf(shot.texture), end);
   std::vector<int> missing;
-  for (const int f : frames)
+  for (int f = shot.shot.first_frame; f <= last; ++f)
     if (!std::binary_search(present.begin(), present.end(), f)) missing.push_back(f);
   if (!missing.empty())
     throw InputError(fmt::format("{}: frames {} are missing; the cache has {}", fluid.path, printFrames(missing),
@@ -95,7 +99,7 @@ std::vector<int> FramePipeline::chooseFrames() const {
   if (!before.empty())
     throw UsageError(fmt::format("frames {}: got {}, expected none before shot.first_frame = {}, where the texture is laid",
                                  asked, printFrames(before), s.first_frame));
-  checkPresent(shot_.fluid, frames);
+  checkPresent(shot_, *std::max_element(frames.begin(), frames.end()), last);
   return chunkOf(frames, options_.chunk, options_.chunks);
 }
 

@@ -31,6 +31,18 @@ def test_missing_frame(folder):
     refuses(folder, write_cache_shot(folder), INPUT, "ball.####.vdb", "frames 3 are missing", "1-2,4")
 
 
+def test_gap_before_or_just_after_the_frames_asked_for(folder):
+    cache = write_cache(folder, frames=6)
+    (cache / "ball.0002.vdb").rename(folder / "kept.vdb")
+    refuses(folder, write_cache_shot(folder), INPUT, "ball.####.vdb", "frames 2 are missing", arguments=["--frames", "4"])
+    (folder / "kept.vdb").rename(cache / "ball.0002.vdb")
+    (cache / "ball.0005.vdb").unlink()
+    refuses(folder, write_cache_shot(folder, method="quilt"), INPUT, "frames 5 are missing",
+            arguments=["--frames", "2-3", "--set", "texture.look_ahead=2"])
+    for arguments in (["--set", "texture.look_ahead=1"], ["--method", "particles"]):
+        render(write_cache_shot(folder, method="quilt"), folder / "out", "--frames", "2-3", "--overwrite", *arguments)
+
+
 def test_truncated_vdb(folder):
     for share, reason in ((0.0, "at byte 0"), (0.02, "ends at byte"), (0.5, "ends at byte"), (0.97, "ends at byte")):
         (folder / str(share)).mkdir()
