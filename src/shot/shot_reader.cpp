@@ -177,6 +177,18 @@ bool lacksMap(const TextureOptions& texture, const std::string& map) {
   return map == "emission" ? texture.emission.empty() : map == "height" && texture.height.empty();
 }
 
+/// Whether method erosion has the drawn feature maps that it is to use.
+void checkFeatureMap(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
+  const ErosionOptions& erosion = shot.texture.erosion;
+  const std::size_t files = erosion.feature_image.size(), exemplars = shot.texture.exemplar.size();
+  const bool isDrawn = erosion.feature_map == "image" || (erosion.feature_map == "auto" && files > 0);
+  if (shot.texture.method != "erosion" || !isDrawn || files == exemplars) return;
+  problems.push_back(fmt::format(
+      "{}: texture.erosion.feature_image: number of files: got {}, expected {} like texture.exemplar; name one for each "
+      "exemplar, or set another feature_map",
+      placeOf(config, shot, "texture.erosion", files > 0 ? "feature_image" : "feature_map"), files, exemplars));
+}
+
 /// What no single field can tell. Only called on shots whose fields are all right.
 void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
   const ShotOptions& s = shot.shot;
@@ -192,6 +204,7 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (shot.texture.exemplar.empty() && shot.texture.method != "plain")
     problems.push_back(fmt::format("{}: texture.exemplar is missing: an example image, or texture.method = \"plain\"",
                                    placeOf(config, shot, "texture", "exemplar")));
+  checkFeatureMap(config, shot, problems);
   if (shot.scene.material.displacement != 0.0 && shot.texture.height.empty())
     problems.push_back(
         fmt::format("{}: material.displacement: got {}, but no texture.height, expected the exemplar's "

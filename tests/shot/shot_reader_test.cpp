@@ -136,6 +136,19 @@ TEST_F(ShotReader, GlowNeedsTheMapThatItIsMadeFrom) {
   EXPECT_EQ(problemsOf(good, {glowing, "texture.emission=a.png"}), "no problem");
 }
 
+TEST_F(ShotReader, ErosionNeedsTheFeatureMapsThatItIsToUse) {
+  const std::string erosion = std::string(good) + "[texture.erosion]\nfeature_map = \"image\"\n";
+  const std::string method = "texture.method=erosion";
+  EXPECT_TRUE(says(problemsOf(erosion, {method}),
+                   "dam.toml:18: texture.erosion.feature_image: number of files: got 0, expected 1"));
+  EXPECT_EQ(problemsOf(erosion, {method, "texture.erosion.feature_image=a.png"}), "no problem");
+  const std::string two = "texture.erosion.feature_image=[\"a.png\", \"b.png\"]";
+  EXPECT_TRUE(says(problemsOf(erosion, {method, two}), "--set " + two + ": texture.erosion.feature_image: number of files: got 2"));
+  EXPECT_TRUE(says(problemsOf(good, {method, two}), "got 2, expected 1 like texture.exemplar"));
+  EXPECT_EQ(problemsOf(good, {method, two, "texture.erosion.feature_map=distance"}), "no problem");
+  EXPECT_EQ(problemsOf(erosion), "no problem") << "other methods do not ask";
+}
+
 TEST_F(ShotReader, SaysWhereTheFileIsNotToml) {
   EXPECT_TRUE(says(problemsOf("[shot]\nname = = 3\n"), "dam.toml:2: not TOML"));
 }

@@ -31,12 +31,8 @@ constexpr double bytesPerTriangle = 150.0, bytesPerPlace = 150.0;
 FeatureMap featureMapOf(const Exemplar& exemplar, const ErosionOptions& options) {
   const std::string& wanted = options.feature_map;
   const bool any = wanted == "auto";
-  if (wanted == "image" || (any && !options.feature_image.empty())) {
-    if (options.feature_image.empty())
-      throw UsageError(
-          "texture.erosion.feature_image: got nothing, expected a file for feature_map = \"image\"");
+  if (wanted == "image" || (any && !options.feature_image.empty()))
     return FeatureMap(exemplar, FeatureSource::image, options.feature_image);
-  }
   if (wanted == "height" || (any && exemplar.hasHeight())) return FeatureMap(exemplar, FeatureSource::height);
   if (wanted == "alpha" || (any && exemplar.hasAlpha())) return FeatureMap(exemplar, FeatureSource::alpha);
   return FeatureMap(exemplar, FeatureSource::distance);
