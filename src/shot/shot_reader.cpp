@@ -107,8 +107,9 @@ ConfigValue* overriddenTable(ConfigValue& config, const std::vector<std::string>
   return &value->items[index];
 }
 
-void applyOverride(ConfigValue& config, const std::string& setting, std::vector<std::string>& problems) {
-  const std::string where = "--set " + setting;
+/// @param where  for messages
+void applySetting(ConfigValue& config, const std::string& setting, const std::string& where,
+                  std::vector<std::string>& problems) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
     problems.push_back(where + ": got no \"=\", expected table.key=value");
@@ -124,6 +125,10 @@ void applyOverride(ConfigValue& config, const std::string& setting, std::vector<
     *present = std::move(value);
   else
     table->items.push_back(std::move(value));
+}
+
+void applyOverride(ConfigValue& config, const std::string& setting, std::vector<std::string>& problems) {
+  applySetting(config, setting, "--set " + setting, problems);
 }
 
 /// Binds a table or every element of an array of tables.
@@ -232,11 +237,13 @@ void throwProblems(const std::vector<std::string>& problems) {
 
 }  // namespace
 
-Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+              const std::vector<FlagSetting>& flags) {
   ConfigValue config = readConfig(file);
   liftInnerTables(config);
   std::vector<std::string> problems;
   for (const std::string& setting : overrides) applyOverride(config, setting, problems);
+  for (const FlagSetting& flag : flags) applySetting(config, flag.setting, flag.flag, problems);
 
   Shot shot;
   shot.file = file;

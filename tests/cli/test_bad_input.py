@@ -185,7 +185,9 @@ def test_command_line(folder):
     says(ebru("render", folder / "nowhere.toml", expect=USAGE), "nowhere.toml: no such shot file")
     shot = write_shot(folder)
     refuses(folder, shot, USAGE, '--size: got "big"', arguments=["--size", "big"])
-    refuses(folder, shot, USAGE, "synthesis", arguments=["--method", "syntesis"])
+    refuses(folder, shot, USAGE, '--method syntesis: texture.method: got "syntesis"', "did you mean synthesis",
+            arguments=["--method", "syntesis"])
+    refuses(folder, shot, USAGE, "--size 0x360: camera.size: got", arguments=["--size", "0x360"])
 
 
 main()

@@ -149,6 +149,20 @@ TEST_F(ShotReader, ErosionNeedsTheFeatureMapsThatItIsToUse) {
   EXPECT_EQ(problemsOf(erosion), "no problem") << "other methods do not ask";
 }
 
+TEST_F(ShotReader, FlagsAreNamedAsTheyWereGiven) {
+  std::ofstream(folder_ / "dam.toml") << good;
+  try {
+    readShot(folder_ / "dam.toml", {"texture.method=plain"}, {{"texture.method=syntesis", "--method syntesis"}});
+    FAIL() << "no error";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(says(error.what(), "--method syntesis: texture.method: got \"syntesis\""));
+    EXPECT_TRUE(says(error.what(), "did you mean synthesis"));
+    EXPECT_EQ(std::string(error.what()).find("--set"), std::string::npos) << error.what();
+  }
+  const Shot shot = readShot(folder_ / "dam.toml", {"texture.method=plain"}, {{"texture.method=quilt", "--method quilt"}});
+  EXPECT_EQ(shot.texture.method, "quilt") << "flags win";
+}
+
 TEST_F(ShotReader, SaysWhereTheFileIsNotToml) {
   EXPECT_TRUE(says(problemsOf("[shot]\nname = = 3\n"), "dam.toml:2: not TOML"));
 }
