@@ -5,8 +5,6 @@
 #include "cli/commands.h"
 #include "core/error.h"
 #include "shot/frame_range.h"
-#include "shot/spelling.h"
-#include "texturing/texture_method.h"
 
 namespace ebru {
 namespace {
@@ -19,27 +17,19 @@ std::string sizeSetting(const std::string& size) {
   return fmt::format("camera.size=[{}, {}]", std::stoi(match[1]), std::stoi(match[2]));
 }
 
-void checkMethod(const Shot& shot) {
-  std::vector<std::string> names;
-  for (const TextureMethodInfo& method : textureMethods()) names.push_back(method.name);
-  if (std::find(names.begin(), names.end(), shot.texture.method) == names.end())
-    throw UsageError(fmt::format("texture.method: got \"{}\", expected one of those that `ebru methods` lists{}",
-                                 shot.texture.method, didYouMean(shot.texture.method, names)));
-}
-
 }  // namespace
 
 Shot ShotArguments::read() const {
-  // After the --set ones, so that the shorter flags win.
-  std::vector<std::string> overrides = settings;
-  if (!method.empty()) overrides.push_back("texture.method=" + method);
-  if (!size.empty()) overrides.push_back(sizeSetting(size));
-  if (spp > 0) overrides.push_back(fmt::format("render.spp={}", spp));
-  if (noise >= 0.0) overrides.push_back(fmt::format("render.noise={}", noise));
-  if (seed >= 0) overrides.push_back(fmt::format("shot.seed={}", seed));
-  Shot shot = readShot(file, overrides);
-  checkMethod(shot);
-  return shot;
+  std::vector<FlagSetting> flags;
+  const auto add = [&](const std::string& setting, const char* flag, const auto& given) {
+    flags.push_back({setting, fmt::format("{} {}", flag, given)});
+  };
+  if (!method.empty()) add("texture.method=" + method, "--method", method);
+  if (!size.empty()) add(sizeSetting(size), "--size", size);
+  if (spp > 0) add(fmt::format("render.spp={}", spp), "--spp", spp);
+  if (noise >= 0.0) add(fmt::format("render.noise={}", noise), "--noise", noise);
+  if (seed >= 0) add(fmt::format("shot.seed={}", seed), "--seed", seed);
+  return readShot(file, settings, flags);
 }
 
 RunOptions ShotArguments::runOptions(const Shot& shot) const {

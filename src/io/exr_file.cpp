@@ -328,4 +328,16 @@ ChannelImage readExr(const std::filesystem::path& path) {
   }
 }
 
+std::string exrText(const std::filesystem::path& path, const std::string& attribute) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return {};
+  try {
+    const Imf::MultiPartInputFile file(path.c_str(), 0);
+    const auto* text = file.header(0).findTypedAttribute<Imf::StringAttribute>(attribute);
+    return text ? text->value() : std::string();
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
 }  // namespace ebru

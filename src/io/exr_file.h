@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "io/channel_image.h"
 #include "io/output_options.h"
@@ -30,5 +31,8 @@ float storedValue(float value, ChannelType type);
 /// @throw InputError if it is missing, not an EXR file, incomplete, damaged, deep or subsampled, or its parts
 /// differ in size
 ChannelImage readExr(const std::filesystem::path& path);
+
+/// A text of the first part's header, without looking at any pixel; empty if there is none or the file cannot be opened.
+std::string exrText(const std::filesystem::path& path, const std::string& attribute);
 
 }  // namespace ebru

@@ -37,6 +37,23 @@ void checkFinite(const std::filesystem::path& path, const LoadedImage& image) {
   }
 }
 
+/// OpenImageIO hands over what a file stores where it was asked to and knows how, and marks it; all else is associated.
+bool isAssociated(const OIIO::ImageSpec& spec) {
+  return spec.alpha_channel >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha") == 0;
+}
+
+/// Colour without any alpha, as of a flame in front of nothing, stays what it is.
+void divideByAlpha(const OIIO::ImageSpec& spec, LoadedImage& image) {
+  constexpr float leastAlpha = 1e-6f;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t pixel = 0; pixel < image.data.size(); pixel += channels) {
+    const float alpha = image.data[pixel + static_cast<std::size_t>(spec.alpha_channel)];
+    if (!(alpha > leastAlpha)) continue;
+    for (int c = 0; c < image.channels; ++c)
+      if (c != spec.alpha_channel && c != spec.z_channel) image.data[pixel + static_cast<std::size_t>(c)] /= alpha;
+  }
+}
+
 std::vector<unsigned char> encodePng(const std::filesystem::path& path, const DisplayImage& image,
                                      const std::string& description) {
   std::vector<unsigned char> bytes;
@@ -87,6 +104,7 @@ LoadedImage readImage(const std::filesystem::path& path, bool toLinear) {
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.data.data()))
     refuse(path, fmt::format("\"{}\"", input->geterror()), "a complete image", "save it again");
   checkFinite(path, image);
+  if (isAssociated(spec)) divideByAlpha(spec, image);
   if (toLinear && isInteger(spec.format))
     for (std::size_t i = 0; i < image.data.size(); ++i)
       if (static_cast<int>(i % static_cast<std::size_t>(spec.nchannels)) != spec.alpha_channel)

@@ -14,7 +14,8 @@ struct LoadedImage {
 };
 
 /// Integer files are scaled to [0, 1] (a 16-bit height map keeps its 65536 steps); float files come as they
-/// are. Colour is not multiplied by alpha on reading. Safe to call concurrently.
+/// are. Colour is not multiplied by alpha, and divided by it where the format stores it multiplied (EXR, and TIFF
+/// that says so). Safe to call concurrently.
 /// @param toLinear  decode colour channels of 8- and 16-bit files from sRGB to scene-linear (not alpha);
 /// float files
 ///                  are linear already

@@ -60,6 +60,15 @@ class Cursor {
   std::size_t at_ = 0;
 };
 
+/// What a state of this version and fingerprint begins with.
+std::vector<std::byte> beginning(const std::string& fingerprint) {
+  std::vector<std::byte> bytes;
+  for (char c : magic) append(bytes, c);
+  append(bytes, formatVersion);
+  appendString(bytes, fingerprint);
+  return bytes;
+}
+
 std::vector<std::byte> readWhole(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) throw InputError(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
@@ -93,10 +102,7 @@ void StateWriter::addBytes(const std::string& name, std::size_t elementSize, con
 }
 
 void StateWriter::write(const std::filesystem::path& path, const std::string& fingerprint) const {
-  std::vector<std::byte> header;
-  for (char c : magic) append(header, c);
-  append(header, formatVersion);
-  appendString(header, fingerprint);
+  std::vector<std::byte> header = beginning(fingerprint);
   append(header, static_cast<std::uint64_t>(payload_.size()));
   const std::vector<std::byte> packed = compress(payload_);
   writeAtomically(path, [&](const std::filesystem::path& temporary) {
@@ -138,6 +144,13 @@ StateReader::StateReader(const std::filesystem::path& path, const std::string& f
     entries_[name] = {elementSize, arrays.position(), bytes};
     arrays.take(bytes);
   }
+}
+
+bool beginsAsState(const std::filesystem::path& path, const std::string& fingerprint) {
+  const std::vector<std::byte> expected = beginning(fingerprint);
+  std::vector<std::byte> bytes(expected.size());
+  std::ifstream in(path, std::ios::binary);
+  return in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())) && bytes == expected;
 }
 
 std::span<const std::byte> StateReader::find(const std::string& name, std::size_t elementSize) const {

@@ -61,4 +61,8 @@ class StateReader {
   std::map<std::string, Entry> entries_;
 };
 
+/// Whether a file says that it is a state of this version and fingerprint; what follows that may be damaged. Costs one look,
+/// however large the file.
+bool beginsAsState(const std::filesystem::path& path, const std::string& fingerprint);
+
 }  // namespace ebru

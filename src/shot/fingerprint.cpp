@@ -26,14 +26,10 @@ bool decidesPictureAlone(const std::string& table, const std::string& key) {
          (key == "shutter" || key == "aperture_diameter" || key == "focus_distance");
 }
 
-/// A path as seen from the shot file, so that a shot may be moved or mounted elsewhere, and what the file holds.
-void addPath(Fingerprint& fingerprint, const std::filesystem::path& path, const std::filesystem::path& folder) {
-  if (path.empty()) {
-    fingerprint.add("");
-    return;
-  }
-  const std::filesystem::path seen = path.lexically_relative(folder.empty() ? "." : folder.lexically_normal());
-  fingerprint.add(seen.empty() ? path.string() : seen.string());
+/// The name of a file or of a pattern without its folder, so that a shot may be moved, mounted elsewhere or named in another
+/// way, and what the file holds.
+void addPath(Fingerprint& fingerprint, const std::filesystem::path& path) {
+  fingerprint.add(path.filename().string());
   std::error_code failed;
   // A pattern of a frame sequence is no file: its frames are told apart where they are used.
   if (std::filesystem::is_regular_file(path, failed)) fingerprint.addContent(path);
@@ -56,14 +52,13 @@ std::string fingerprintOf(const Shot& constShot, bool statesOnly) {
         if (decidesNothing(table, field.key)) continue;
         if (statesOnly && decidesPictureAlone(table.name, field.key)) continue;
         fingerprint.add(field.key);
-        const std::filesystem::path folder = shot.file.parent_path();
         const auto* path = std::get_if<std::string*>(&field.target);
         const auto* paths = std::get_if<std::vector<std::string>*>(&field.target);
         if (field.path && path) {
-          addPath(fingerprint, **path, folder);
+          addPath(fingerprint, **path);
         } else if (field.path && paths) {
           fingerprint.add(static_cast<std::uint64_t>((*paths)->size()));
-          for (const std::string& one : **paths) addPath(fingerprint, one, folder);
+          for (const std::string& one : **paths) addPath(fingerprint, one);
         } else {
           fingerprint.add(printOption(field.target));
         }

@@ -1,7 +1,7 @@
 #pragma once
 
 /// What a state or a picture depends on, as a short hash. Equal on every machine that sees the same shot, whatever the
-/// folder it lies in and whenever its files were written.
+/// folder it and its files lie in, however those are named, and whenever they were written.
 
 #include <cstdint>
 #include <filesystem>

@@ -34,12 +34,16 @@ void checkWritable(const std::filesystem::path& folder) {
                                   std::strerror(errno)));
 }
 
-/// Frames missing from the middle of a cache are found before the work on the others begins.
-void checkPresent(const FluidOptions& fluid, const std::vector<int>& frames) {
+/// Frames missing from the middle of a cache are found before the work on the others begins. Texture goes through all from
+/// the shot's first on; a state behind a gap is no way around it, since it does not fit a cache that lacks a file.
+/// @param last  the last one asked for; @param end  of the cache
+void checkPresent(const Shot& shot, int last, int end) {
+  const FluidOptions& fluid = shot.fluid;
   if (!readsFiles(fluid) || readsOneFile(fluid)) return;
   const std::vector<int> present = FramePattern(fluid.path).list();
+  if (last > shot.shot.first_frame) last = std::min(last + lookAheadOf(shot.texture), end);
   std::vector<int> missing;
-  for (const int f : frames)
+  for (int f = shot.shot.first_frame; f <= last; ++f)
     if (!std::binary_search(present.begin(), present.end(), f)) missing.push_back(f);
   if (!missing.empty())
     throw InputError(fmt::format("{}: frames {} are missing; the cache has {}", fluid.path, printFrames(missing),
@@ -58,7 +62,8 @@ StateStore::Policy statePolicy(const RunOptions& options, bool statesMatter) {
 
 FramePipeline::FramePipeline(const Shot& shot, const RunOptions& options, bool statesMatter)
     : shot_(shot), options_(options), threads_(options.threads), files_(options.out, shot.shot.name),
-      identity_(shot), sequence_(openFluidSequence(shot.fluid, shot.shot.fps)), frames_(chooseFrames()) {
+      sequence_(openFluidSequence(shot.fluid, shot.shot.fps)), identity_(shot, sequence_->lastFrame()),
+      frames_(chooseFrames()) {
   const std::filesystem::path stateFolder = options.states.empty() ? files_.states() : options.states;
   checkWritable(files_.folder());
   checkWritable(stateFolder);
@@ -66,8 +71,11 @@ FramePipeline::FramePipeline(const Shot& shot, const RunOptions& options, bool s
                              stateFolder})
     removeStaleTemporaries(folder);
   store_ = std::make_unique<FrameStore>(*sequence_, options.threads != 1, &times_);
-  states_ = std::make_unique<StateStore>(stateFolder, shot.shot.name, statePolicy(options, statesMatter),
-                                         [this](int frame) { return identity_.state(frame); });
+  states_ = std::make_unique<StateStore>(
+      stateFolder, shot.shot.name, statePolicy(options, statesMatter), [this](int frame) {
+        const bool exists = frame >= shot_.shot.first_frame && frame <= sequence_->lastFrame();
+        return exists ? identity_.state(frame) : std::string();
+      });
   timeline_ = std::make_unique<TextureTimeline>(shot, *store_, *states_, &times_,
                                                 [this](int frame) { log_.stage(frame, "texture"); });
 }
@@ -92,7 +100,7 @@ std::vector<int> FramePipeline::chooseFrames() const {
   if (!before.empty())
     throw UsageError(fmt::format("frames {}: got {}, expected none before shot.first_frame = {}, where the texture is laid",
                                  asked, printFrames(before), s.first_frame));
-  checkPresent(shot_.fluid, frames);
+  checkPresent(shot_, *std::max_element(frames.begin(), frames.end()), last);
   return chunkOf(frames, options_.chunk, options_.chunks);
 }
 

@@ -68,8 +68,8 @@ class FramePipeline {
   RunLog log_;
   PhaseTimes times_;
   OutputFiles files_;
-  InputIdentity identity_;
   std::unique_ptr<FluidSequence> sequence_;
+  InputIdentity identity_;
   std::vector<int> frames_;
   std::unique_ptr<FrameStore> store_;
   std::unique_ptr<StateStore> states_;

@@ -68,6 +68,7 @@ std::vector<int> parseFrames(const std::string& text) {
       if (seen.insert(f).second) frames.push_back(f);
     begin = comma + 1;
   }
+  if (frames.empty()) fail(text, "at least one frame, but y leaves none of these");
   return frames;
 }
 

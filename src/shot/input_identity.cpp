@@ -6,6 +6,7 @@
 
 #include "core/random.h"
 #include "shot/fingerprint.h"
+#include "texturing/texture_method.h"
 
 namespace ebru {
 namespace {
@@ -27,18 +28,24 @@ std::uint64_t sampledContent(const std::string& path, std::uint64_t size) {
 
 }  // namespace
 
-InputIdentity::InputIdentity(const Shot& shot)
-    : shot_(shot), stateBase_(stateFingerprint(shot)), pictureBase_(pictureFingerprint(shot)) {
+InputIdentity::InputIdentity(const Shot& shot, int lastFrame)
+    : shot_(shot),
+      lastFrame_(lastFrame),
+      lookAhead_(lookAheadOf(shot.texture)),
+      stateBase_(stateFingerprint(shot)),
+      pictureBase_(pictureFingerprint(shot)) {
   if (readsFiles(shot.fluid)) pattern_.emplace(shot.fluid.path);
 }
 
-std::uint64_t InputIdentity::identityOf(int frame) const {
-  if (!pattern_) return 0;
+std::uint64_t InputIdentity::identityOf(int frame) {
+  if (!pattern_ || frame > lastFrame_) return 0;
+  const auto [found, isNew] = identities_.try_emplace(frame, 0);
+  if (!isNew) return found->second;
   const std::string path = pattern_->path(frame);
   std::error_code failed;
   const auto size = static_cast<std::uint64_t>(std::filesystem::file_size(path, failed));
-  if (failed) return 0;
-  return shot_.fluid.source == "mesh" ? sampledContent(path, size) : size;
+  if (!failed) found->second = shot_.fluid.source == "mesh" ? sampledContent(path, size) : size;
+  return found->second;
 }
 
 std::string InputIdentity::state(int frame) {
@@ -49,7 +56,9 @@ std::string InputIdentity::state(int frame) {
   for (int f = known + 1; f <= frame; ++f) {
     Fingerprint fingerprint;
     fingerprint.add(f > first ? states_.at(f - 1) : stateBase_);
-    fingerprint.add(static_cast<std::uint64_t>(f)).add(identityOf(f));
+    fingerprint.add(static_cast<std::uint64_t>(f));
+    // What the frame before has not seen of the cache.
+    for (int seen = f > first ? f + lookAhead_ : f; seen <= f + lookAhead_; ++seen) fingerprint.add(identityOf(seen));
     states_[f] = fingerprint.text();
   }
   return states_.at(frame);

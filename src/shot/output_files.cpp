@@ -54,7 +54,6 @@ void addShotAttributes(ChannelImage& image, const Shot& shot, const std::string&
   setAttribute(image, "ebru:shot", shot.shot.name);
   setAttribute(image, "ebru:method", shot.texture.method);
   setAttribute(image, "ebru:seed", shot.shot.seed);
-  setAttribute(image, "ebru:spp", shot.scene.render.spp);
   setAttribute(image, "ebru:texelSizeWorld", static_cast<float>(shot.texture.texel_size));
   setAttribute(image, "ebru:velocity", describeVelocity(shot.fluid));
   setAttribute(image, "ebru:fingerprint", fingerprint);

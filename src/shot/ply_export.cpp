@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "io/atomic_file.h"
+#include "io/srgb.h"
 
 namespace ebru {
 namespace {
@@ -58,9 +59,7 @@ std::string header(std::size_t vertices, std::size_t faces, const std::string& f
 }
 
 std::uint8_t srgb8(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(encoded * 255.0f));
+  return static_cast<std::uint8_t>(std::lround(srgbFromLinear(std::clamp(linear, 0.0f, 1.0f)) * 255.0f));
 }
 
 /// For every vertex one of its triangles and its corner there: what a ray would report at the vertex.

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "io/atomic_file.h"
+#include "io/exr_file.h"
 #include "shot/frame_range.h"
 #include "shot/interrupt.h"
 #include "shot/previews.h"
@@ -50,7 +51,8 @@ void previewShot(const Shot& shot, const RunOptions& options) {
     previews.remake(frame);
     log.frameDone(frame);
   }
-  const std::string movie = previews.makeMovie(frames, log);
+  const std::string movie = previews.makeMovie(
+      frames, [&](int f) { return exrText(files.picture(f), "ebru:fingerprint"); }, log);
   const double wall = log.elapsedSeconds();
   log.finish();
   fmt::print("{}\n{} {} in {}\n  previews  {}\n", printPhases(times.phases(), wall), frames.size(),

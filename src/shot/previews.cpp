@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 
 #include "core/error.h"
 #include "io/exr_file.h"
@@ -14,6 +14,8 @@ namespace ebru {
 Previews::Previews(const Shot& shot, const OutputFiles& files, PhaseTimes& times)
     : files_(files),
       times_(times),
+      firstFrame_(shot.shot.first_frame),
+      lastFrame_(shot.shot.last_frame),
       framesPerSecond_(shot.shot.fps),
       transparent_(shot.output.transparent),
       lossy_(isLossy(shot.output)),
@@ -39,7 +41,6 @@ void Previews::write(int frame, const ChannelImage& picture) const {
 }
 
 void Previews::writePartial(int frame, const ChannelImage& picture) const {
-  const PhaseTimer timer(&times_, "write preview");
   writer_.writePartial(files_.preview(frame), picture);
 }
 
@@ -57,17 +58,26 @@ void Previews::remake(int frame) const {
   develop(frame, picture);
 }
 
+bool Previews::isCurrent(int frame, const std::function<std::string(int)>& fingerprintOf) const {
+  std::error_code failed;
+  const std::filesystem::path file = files_.preview(frame);
+  return std::filesystem::is_regular_file(file, failed) && PreviewWriter::isCurrent(file, markOf(fingerprintOf(frame)));
+}
+
 void Previews::complete(const std::vector<int>& frames,
                         const std::function<std::string(int)>& fingerprintOf) const {
   for (const int frame : frames)
-    if (!PreviewWriter::isCurrent(files_.preview(frame), markOf(fingerprintOf(frame)))) remake(frame);
+    if (!isCurrent(frame, fingerprintOf)) remake(frame);
 }
 
-std::string Previews::makeMovie(std::vector<int> frames, RunLog& log) const {
-  std::sort(frames.begin(), frames.end());
+std::string Previews::makeMovie(const std::vector<int>& made, const std::function<std::string(int)>& fingerprintOf,
+                                RunLog& log) const {
+  const PhaseTimer timer(&times_, "write movie");
+  std::set<int> frames(made.begin(), made.end());
+  for (int f = firstFrame_; f <= lastFrame_; ++f)
+    if (!frames.count(f) && isCurrent(f, fingerprintOf)) frames.insert(f);
   std::vector<std::filesystem::path> pictures;
   for (const int frame : frames) pictures.push_back(files_.preview(frame));
-  const PhaseTimer timer(&times_, "write movie");
   const std::string problem = writeMovie(files_.movie(), pictures, framesPerSecond_, transparent_);
   if (problem.empty()) return files_.movie().string();
   log.warn(fmt::format("{}: no movie: {}; the frames are complete", files_.movie().string(), problem));

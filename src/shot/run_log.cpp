@@ -54,13 +54,14 @@ void RunLog::begin(std::size_t total) {
   const std::lock_guard lock(mutex_);
   total_ = total;
   done_ = 0;
-  start_ = frameStart_ = Clock::now();
+  framesStart_ = frameStart_ = Clock::now();
 }
 
-double RunLog::elapsedSeconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+double RunLog::elapsedSeconds() const { return std::chrono::duration<double>(Clock::now() - made_).count(); }
 
 double RunLog::remainingSeconds() const {
-  return elapsedSeconds() / static_cast<double>(done_) * static_cast<double>(total_ - done_);
+  const double elapsed = std::chrono::duration<double>(Clock::now() - framesStart_).count();
+  return elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
 }
 
 void RunLog::stage(int frame, const std::string& stage) {

@@ -27,6 +27,7 @@ class RunLog {
   void stage(int frame, const std::string& stage);
   /// A frame is on disk.
   void frameDone(int frame);
+  /// Since the log was made, checks before the first frame included.
   double elapsedSeconds() const;
   /// Ends the progress line, so that other output can follow.
   void finish();
@@ -40,13 +41,15 @@ class RunLog {
   bool terminal_;
   bool lineOpen_ = false;
   std::size_t total_ = 0, done_ = 0;
-  Clock::time_point start_ = Clock::now(), frameStart_ = Clock::now();
+  const Clock::time_point made_ = Clock::now();
+  Clock::time_point framesStart_ = made_, frameStart_ = made_;
 };
 
 /// "9 s", "3 min 20 s", "2 h 05 min".
 std::string printDuration(double seconds);
 
 /// Name, calls, seconds and share of `wallSeconds` per phase, the slowest first; ends with what no phase covers.
+/// @param phases  none within another, all within `wallSeconds`
 std::string printPhases(const std::vector<PhaseTimes::Phase>& phases, double wallSeconds);
 
 }  // namespace ebru

@@ -140,10 +140,12 @@ void renderShot(const Shot& shot, const RunOptions& options) {
 
   std::vector<std::string> places = {"pictures  " + files.picturePattern().string()};
   if (previews && !pipeline.frames().empty()) {
-    previews->complete(pipeline.frames(), [&](int f) { return pipeline.identity().picture(f); });
+    const auto fingerprintOf = [&](int f) { return pipeline.identity().picture(f); };
+    previews->complete(pipeline.frames(), fingerprintOf);
     places.push_back("previews  " + files.previewPattern().string());
-    // Every chunk would write the same movie, with its own frames only.
-    const std::string movie = options.chunks == 1 ? previews->makeMovie(pipeline.frames(), pipeline.log()) : "";
+    // Every chunk would write the same movie, with what the others have finished by then.
+    const std::string movie =
+        options.chunks == 1 ? previews->makeMovie(pipeline.frames(), fingerprintOf, pipeline.log()) : "";
     if (!movie.empty()) places.push_back("movie     " + movie);
   }
   pipeline.summarise(frames.size(), frames.size() == 1 ? "frame" : "frames", places);

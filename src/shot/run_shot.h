@@ -25,12 +25,13 @@ struct RunOptions {
   std::string command;           ///< repeats this run; for messages
 };
 
-/// Frames to OUT/NAME.####.exr. Pixels depend on neither the frames asked for nor the threads.
+/// Frames to OUT/NAME.####.exr; with previews a movie of all frames of the shot whose previews in OUT are current. Pixels depend on neither the frames asked for nor the threads.
 /// @throw UsageError, InputError, OutputError; Interrupted after SIGINT or SIGTERM. Files on disk are whole in every case.
 void renderShot(const Shot& shot, const RunOptions& options);
 
-/// Previews and the movie of finished pictures, made again as [output] now says; needs neither cache nor exemplar. Without
-/// frames asked for, of those of the shot that are there. The view may differ from the one they were rendered with.
+/// Previews of finished pictures, made again as [output] now says; needs neither cache nor exemplar. Without frames asked
+/// for, of those of the shot that are there. The view may differ from the one they were rendered with. The movie is of all
+/// frames of the shot whose previews then are current.
 /// @throw UsageError; InputError if a picture asked for is missing or damaged; OutputError; Interrupted
 void previewShot(const Shot& shot, const RunOptions& options);
 

@@ -32,9 +32,17 @@ struct Shot {
   OutputOptions output;
 };
 
+/// What a flag of the command line sets.
+struct FlagSetting {
+  std::string setting;  ///< "table.key=value"
+  std::string flag;     ///< as it was given, for messages: "--method quilt"
+};
+
 /// @param overrides  "table.key=value" as after --set, applied over the file
+/// @param flags  applied over those
 /// @throw UsageError listing every problem at once: unknown keys with line and nearest spelling, types, ranges
-Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+              const std::vector<FlagSetting>& flags = {});
 
 /// Table [fluid] for a cache without a shot: the defaults, `path` (of meshes if it ends in .ply), and overrides of that
 /// table alone.

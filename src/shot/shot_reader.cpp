@@ -107,8 +107,9 @@ ConfigValue* overriddenTable(ConfigValue& config, const std::vector<std::string>
   return &value->items[index];
 }
 
-void applyOverride(ConfigValue& config, const std::string& setting, std::vector<std::string>& problems) {
-  const std::string where = "--set " + setting;
+/// @param where  for messages
+void applySetting(ConfigValue& config, const std::string& setting, const std::string& where,
+                  std::vector<std::string>& problems) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
     problems.push_back(where + ": got no \"=\", expected table.key=value");
@@ -124,6 +125,10 @@ void applyOverride(ConfigValue& config, const std::string& setting, std::vector<
     *present = std::move(value);
   else
     table->items.push_back(std::move(value));
+}
+
+void applyOverride(ConfigValue& config, const std::string& setting, std::vector<std::string>& problems) {
+  applySetting(config, setting, "--set " + setting, problems);
 }
 
 /// Binds a table or every element of an array of tables.
@@ -177,6 +182,18 @@ bool lacksMap(const TextureOptions& texture, const std::string& map) {
   return map == "emission" ? texture.emission.empty() : map == "height" && texture.height.empty();
 }
 
+/// Whether method erosion has the drawn feature maps that it is to use.
+void checkFeatureMap(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
+  const ErosionOptions& erosion = shot.texture.erosion;
+  const std::size_t files = erosion.feature_image.size(), exemplars = shot.texture.exemplar.size();
+  const bool isDrawn = erosion.feature_map == "image" || (erosion.feature_map == "auto" && files > 0);
+  if (shot.texture.method != "erosion" || !isDrawn || files == exemplars) return;
+  problems.push_back(fmt::format(
+      "{}: texture.erosion.feature_image: number of files: got {}, expected {} like texture.exemplar; name one for each "
+      "exemplar, or set another feature_map",
+      placeOf(config, shot, "texture.erosion", files > 0 ? "feature_image" : "feature_map"), files, exemplars));
+}
+
 /// What no single field can tell. Only called on shots whose fields are all right.
 void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std::string>& problems) {
   const ShotOptions& s = shot.shot;
@@ -192,6 +209,7 @@ void checkTogether(const ConfigValue& config, const Shot& shot, std::vector<std:
   if (shot.texture.exemplar.empty() && shot.texture.method != "plain")
     problems.push_back(fmt::format("{}: texture.exemplar is missing: an example image, or texture.method = \"plain\"",
                                    placeOf(config, shot, "texture", "exemplar")));
+  checkFeatureMap(config, shot, problems);
   if (shot.scene.material.displacement != 0.0 && shot.texture.height.empty())
     problems.push_back(
         fmt::format("{}: material.displacement: got {}, but no texture.height, expected the exemplar's "
@@ -219,11 +237,13 @@ void throwProblems(const std::vector<std::string>& problems) {
 
 }  // namespace
 
-Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+Shot readShot(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+              const std::vector<FlagSetting>& flags) {
   ConfigValue config = readConfig(file);
   liftInnerTables(config);
   std::vector<std::string> problems;
   for (const std::string& setting : overrides) applyOverride(config, setting, problems);
+  for (const FlagSetting& flag : flags) applySetting(config, flag.setting, flag.flag, problems);
 
   Shot shot;
   shot.file = file;

@@ -17,9 +17,12 @@ StateStore::StateStore(std::filesystem::path folder, std::string shotName, Polic
                        std::function<std::string(int)> fingerprintOf)
     : folder_(std::move(folder)), shotName_(std::move(shotName)), policy_(policy),
       fingerprintOf_(std::move(fingerprintOf)) {
-  // Two states are what a stopped run leaves; more were kept on purpose and are not ours to remove.
-  const std::set<int> present = framesOnDisk();
-  if (policy_.useExisting && present.size() <= 2) rolling_ = present;
+  if (!policy_.useExisting) return;
+  // Those of another shot, or of this one before it was changed, are neither of use nor ours to remove.
+  std::set<int> present = framesOnDisk();
+  std::erase_if(present, [&](int frame) { return !beginsAsState(pathOf(frame), fingerprintOf_(frame)); });
+  // Two states are what a stopped run leaves; more were kept on purpose and are not ours to remove either.
+  if (present.size() <= 2) rolling_ = std::move(present);
 }
 
 std::filesystem::path StateStore::pathOf(int frame) const {
@@ -44,6 +47,7 @@ std::set<int> StateStore::framesOnDisk() const {
 void StateStore::save(int frame, const StateWriter& writer) {
   writer.write(pathOf(frame), fingerprintOf_(frame));
   written_.insert(frame);
+  newestWritten_ = frame;
   if (!policy_.keepAll) rolling_.insert(frame);
   if (!holdBack_) removeSurplus();
 }
@@ -51,8 +55,11 @@ void StateStore::save(int frame, const StateWriter& writer) {
 void StateStore::removeSurplus() {
   std::error_code failed;
   while (rolling_.size() > 2) {
-    std::filesystem::remove(pathOf(*rolling_.begin()), failed);
-    rolling_.erase(rolling_.begin());
+    // A run that fills a gap in front of states that are there is resumed from where it stands.
+    auto oldest = rolling_.begin();
+    if (newestWritten_ == *oldest) ++oldest;
+    std::filesystem::remove(pathOf(*oldest), failed);
+    rolling_.erase(oldest);
   }
 }
 

@@ -18,16 +18,17 @@ class StateStore {
  public:
   struct Policy {
     bool useExisting = false;  ///< states of earlier runs may be started from
-    bool keepAll = false;      ///< otherwise this run leaves its newest two
+    bool keepAll = false;      ///< otherwise this run leaves two: those of the highest frames, and in any case the one it wrote last
   };
 
-  /// @param fingerprintOf  of the state of a frame
+  /// @param fingerprintOf  of the state of a frame; empty for frames that the shot does not have
   StateStore(std::filesystem::path folder, std::string shotName, Policy policy,
              std::function<std::string(int frame)> fingerprintOf);
 
   std::filesystem::path pathOf(int frame) const;
 
-  /// Saves a frame's state and removes what the policy does not keep. @throw OutputError
+  /// Saves a frame's state and removes what the policy does not keep: nothing of other fingerprints.
+  /// @throw OutputError
   void save(int frame, const StateWriter& writer);
 
   struct Found {
@@ -53,6 +54,7 @@ class StateStore {
   std::function<std::string(int)> fingerprintOf_;
   std::set<int> rolling_;  ///< states this run may remove
   std::set<int> written_;  ///< by this run
+  std::optional<int> newestWritten_;
   bool holdBack_ = false;
 };
 

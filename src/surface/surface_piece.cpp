@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <unordered_map>
 
 #include "surface/mesh_measures.h"
@@ -37,6 +38,12 @@ TriangleMesh halved(const TriangleMesh& mesh) {
       result.triangles.push_back(part);
   }
   return result;
+}
+
+int halvings(const TriangleMesh& mesh, float edgeWorld) {
+  int count = 0;
+  for (double edge = meanEdge(mesh); edge > edgeWorld; edge *= 0.5) ++count;
+  return count;
 }
 
 }  // namespace
@@ -141,9 +148,13 @@ SurfacePiece PieceCutter::around(std::uint32_t seed, const Vec3f& centre, const 
   return piece;
 }
 
+double refinedTriangles(const TriangleMesh& mesh, float edgeWorld) {
+  return static_cast<double>(mesh.triangles.size()) * std::pow(4.0, halvings(mesh, edgeWorld));
+}
+
 TriangleMesh refinedMesh(const TriangleMesh& mesh, float edgeWorld) {
   TriangleMesh result = mesh;
-  for (double edge = meanEdge(mesh); edge > edgeWorld; edge *= 0.5) result = halved(result);
+  for (int left = halvings(mesh, edgeWorld); left > 0; --left) result = halved(result);
   return result;
 }
 

@@ -62,4 +62,7 @@ class SurfaceRim {
 /// vertices lie on the middle of edges. @return `mesh` itself, copied, where it is fine enough
 TriangleMesh refinedMesh(const TriangleMesh& mesh, float edgeWorld);
 
+/// How many triangles `refinedMesh` would give, which may be more than there is memory for.
+double refinedTriangles(const TriangleMesh& mesh, float edgeWorld);
+
 }  // namespace ebru

@@ -26,6 +26,7 @@ Maker blind(Make* make) {
 struct Entry {
   TextureMethodInfo info;
   Maker make;
+  int TextureOptions::*lookAhead = nullptr;  ///< null: sees nothing in advance
 };
 
 /// One line per method.
@@ -36,7 +37,8 @@ const std::vector<Entry>& registry() {
       {{"synthesis", "surface texture optimisation on advected texture particles (Kwatra 2007)"}, blind(makeSynthesisMethod)},
       {{"erosion", "deformable lapped patches, eroded along the exemplar's features where they are distorted (Gagnon 2021)"},
        blind(makeErosionMethod)},
-      {{"quilt", "ours: texture follows the flow strictly, worn pieces are quilted anew along least-error cuts"}, makeQuiltMethod},
+      {{"quilt", "ours: texture follows the flow strictly, worn pieces are quilted anew along least-error cuts"}, makeQuiltMethod,
+       &TextureOptions::look_ahead},
       {{"plain", "no texture: the fluid in its material's colour"}, blind(makePlainMethod)},
   };
   return entries;
@@ -51,6 +53,12 @@ const std::vector<TextureMethodInfo>& textureMethods() {
     return result;
   }();
   return infos;
+}
+
+int lookAheadOf(const TextureOptions& options) {
+  for (const Entry& entry : registry())
+    if (entry.info.name == options.method && entry.lookAhead) return options.*entry.lookAhead;
+  return 0;
 }
 
 std::unique_ptr<TextureMethod> makeTextureMethod(const TextureOptions& options, std::uint64_t seed,

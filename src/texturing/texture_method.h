@@ -26,7 +26,7 @@ class TextureMethod {
   /// `from` is the frame of the last start or advance, `to` the next one.
   /// @param ahead  the frames after `to`, as many as the cache has of `lookAhead`
   virtual void advance(const FluidFrame& from, const FluidFrame& to, FramesAhead ahead = {}) = 0;
-  /// How many frames after `to` the method wants to know.
+  /// How many frames after `to` the method wants to know: lookAheadOf its options.
   virtual int lookAhead() const { return 0; }
 
   /// Of the newest frame; stays valid and unchanged after later advances while the pointer is held.
@@ -45,6 +45,9 @@ struct TextureMethodInfo {
 
 /// All methods, in the order of `ebru methods`.
 const std::vector<TextureMethodInfo>& textureMethods();
+
+/// How many frames of the cache after its own a frame's texture depends on.
+int lookAheadOf(const TextureOptions& options);
 
 /// @param options  with resolved file names
 /// @param seed  of the shot

@@ -31,6 +31,18 @@ def test_missing_frame(folder):
     refuses(folder, write_cache_shot(folder), INPUT, "ball.####.vdb", "frames 3 are missing", "1-2,4")
 
 
+def test_gap_before_or_just_after_the_frames_asked_for(folder):
+    cache = write_cache(folder, frames=6)
+    (cache / "ball.0002.vdb").rename(folder / "kept.vdb")
+    refuses(folder, write_cache_shot(folder), INPUT, "ball.####.vdb", "frames 2 are missing", arguments=["--frames", "4"])
+    (folder / "kept.vdb").rename(cache / "ball.0002.vdb")
+    (cache / "ball.0005.vdb").unlink()
+    refuses(folder, write_cache_shot(folder, method="quilt"), INPUT, "frames 5 are missing",
+            arguments=["--frames", "2-3", "--set", "texture.look_ahead=2"])
+    for arguments in (["--set", "texture.look_ahead=1"], ["--method", "particles"]):
+        render(write_cache_shot(folder, method="quilt"), folder / "out", "--frames", "2-3", "--overwrite", *arguments)
+
+
 def test_truncated_vdb(folder):
     for share, reason in ((0.0, "at byte 0"), (0.02, "ends at byte"), (0.5, "ends at byte"), (0.97, "ends at byte")):
         (folder / str(share)).mkdir()
@@ -132,10 +144,12 @@ def test_texel_size_zero(folder):
     refuses(folder, write_shot(folder, texel=0), USAGE, "tiny.toml:15: texture.texel_size: got 0 m, expected")
 
 
-def test_texel_size_that_needs_more_particles_than_memory(folder):
+def test_texel_size_that_needs_more_than_memory(folder):
     for method in texture_methods():
-        if method != "erosion":  # which has patches and no particles that could be counted beforehand
-            refuses(folder, write_shot(folder, method=method, texel="1e-9"), INPUT, "texture.texel_size", "particles")
+        what = "places" if method == "erosion" else "particles"
+        refuses(folder, write_shot(folder, method=method, texel="1e-9"), INPUT, "texture.texel_size", what)
+    refuses(folder, write_shot(folder, method="erosion"), INPUT, "texture.erosion.radius: got 0.0001 texels", "triangles",
+            arguments=["--set", "texture.erosion.radius=1e-4"])
 
 
 def test_frames_outside_the_cache(folder):
@@ -150,6 +164,8 @@ def test_frames_outside_the_cache(folder):
 def test_frames_that_are_none(folder):
     refuses(folder, write_shot(folder), USAGE, '"1-x"', arguments=["--frames", "1-x"])
     refuses(folder, write_shot(folder), USAGE, "0/3", arguments=["--chunk", "0/3"])
+    refuses(folder, write_shot(folder), USAGE, '"1-4y1"', "at least one frame", arguments=["--frames", "1-4y1"])
+    says(ebru("inspect", write_shot(folder), "--frames", "1-4y1", expect=USAGE), '"1-4y1"', "at least one frame")
 
 
 def test_no_cache_at_all(folder):
@@ -169,7 +185,9 @@ def test_command_line(folder):
     says(ebru("render", folder / "nowhere.toml", expect=USAGE), "nowhere.toml: no such shot file")
     shot = write_shot(folder)
     refuses(folder, shot, USAGE, '--size: got "big"', arguments=["--size", "big"])
-    refuses(folder, shot, USAGE, "synthesis", arguments=["--method", "syntesis"])
+    refuses(folder, shot, USAGE, '--method syntesis: texture.method: got "syntesis"', "did you mean synthesis",
+            arguments=["--method", "syntesis"])
+    refuses(folder, shot, USAGE, "--size 0x360: camera.size: got", arguments=["--size", "0x360"])
 
 
 main()

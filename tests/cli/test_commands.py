@@ -63,6 +63,43 @@ def test_preview_and_movie(folder):
         assert "tiny.mp4" in run.stdout
 
 
+def movie_frames(movie):
+    run = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames",
+                          "-of", "csv=p=0", movie], capture_output=True, text=True, check=True)
+    return int(run.stdout.strip().strip(","))
+
+
+def test_movie_is_of_all_frames_whichever_a_run_is_over(folder):
+    if not shutil.which("ffprobe"):
+        return
+    shot, out = write_shot(folder, last=4), folder / "out"
+    movie = out / "tiny.mp4"
+    render(shot, out, "--preview", "--frames", "1-3")
+    assert movie_frames(movie) == 3
+    render(shot, out, "--preview", "--frames", "2", "--overwrite")
+    assert movie_frames(movie) == 3
+    render(shot, out, "--preview", "--frames", "4")
+    assert movie_frames(movie) == 4
+    ebru("preview", shot, "--out", out, "--frames", "3")
+    assert movie_frames(movie) == 4
+    # One of another picture, and three of another view.
+    render(shot, out, "--frames", "4", "--overwrite", "--spp", "1")
+    ebru("preview", shot, "--out", out, "--frames", "3")
+    assert movie_frames(movie) == 3
+    ebru("preview", shot, "--out", out, "--frames", "3", "--set", "output.exposure=1")
+    assert movie_frames(movie) == 1
+
+
+def test_shares_of_the_phases_add_up(folder):
+    lines = render(write_shot(folder, last=3), folder / "out", "--preview").stdout.splitlines()
+    begin = next(i for i, line in enumerate(lines) if line.startswith("phase"))
+    end = next(i for i, line in enumerate(lines) if line.startswith("all "))
+    seconds = {line[:20].strip(): float(line.split()[-2]) for line in lines[begin + 1 : end + 1]}
+    total = seconds.pop("all")
+    assert "check velocity" in seconds, seconds
+    assert abs(sum(seconds.values()) - total) <= 0.01 * len(seconds), (seconds, total)
+
+
 def test_run_without_ffmpeg_keeps_the_frames(folder):
     shot, out = write_shot(folder, last=2), folder / "out"
     run = render(shot, out, "--preview", env={**os.environ, "PATH": "/nonexistent"})

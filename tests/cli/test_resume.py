@@ -68,6 +68,33 @@ def test_other_shots_states_are_not_used(folder):
     assert_same_files(pictures(out), pictures(whole))
 
 
+def test_changed_shot_leaves_states_to_go_on_from(folder):
+    shot, out = write_shot(folder, last=8), folder / "out"
+    changed = ["--set", "texture.texel_size=0.02"]
+    render(shot, out)
+    render(shot, out, "--resume", *changed, "--frames", "1-4")
+    run = ebru("synth", shot, "--out", out, "--resume", *changed, "--frames", "3-4")
+    says(run, "frames 3-4 are done already")
+
+
+def test_growing_cache_changes_the_frames_that_look_ahead(folder):
+    for method, done in (("quilt", "frames 1-2 are done already"), ("particles", "frames 1-3 are done already")):
+        there, later = folder / method, folder / f"{method}_later"
+        there.mkdir(), later.mkdir()
+        cache, whole, grown = write_cache(there, frames=6), there / "whole", there / "grown"
+        ahead = ["--set", "texture.look_ahead=2"]
+        shot = write_cache_shot(there, frames=4, method=method)
+        render(shot, whole, *ahead)
+        late = [cache / f"ball.000{f}.vdb" for f in (5, 6)]
+        for file in late:
+            file.rename(later / file.name)
+        render(shot, grown, *ahead)
+        for file in late:
+            (later / file.name).rename(file)
+        says(render(shot, grown, "--resume", *ahead), done)
+        assert_same_files(pictures(grown), pictures(whole), method)
+
+
 def test_resume_notices_that_a_map_changed(folder):
     exemplars = ROOT / "scenes/exemplars"
     for name in ("foam", "soup", "foam_height"):

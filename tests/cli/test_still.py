@@ -41,6 +41,13 @@ def test_header_says_what_the_picture_is(folder):
     assert exr.text_attribute(header, "ebru:version") == version
     for name in ("worldToCamera", "worldToNDC", "framesPerSecond", "ebru:texelSizeWorld", "ebru:velocity"):
         assert name in header, name
+    # What every EXR file has is no key of ebru's.
+    own = set(header) - {"channels", "compression", "dataWindow", "displayWindow", "lineOrder", "pixelAspectRatio",
+                         "screenWindowCenter", "screenWindowWidth"}
+    section = (ROOT / "docs/aovs.md").read_text().split("## Header\n")[1]
+    rows = [[cell.strip() for cell in line.split("|")[1:3]] for line in section.splitlines() if line.startswith("| ")][1:]
+    documented = {name: kind for names, kind in rows for name in names.split(", ")}
+    assert {name: header[name][0] for name in own} == documented, (own, documented)
 
 
 main()

@@ -54,6 +54,18 @@ std::string bytesOf(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+TEST_F(ExrFile, TellsATextWithoutItsPixels) {
+  for (const char* compression : {"zip", "dwaa"}) {
+    writeExr(folder_ / "a.exr", picture(), {.compression = compression});
+    EXPECT_EQ(exrText(folder_ / "a.exr", "ebru:shot"), "dam") << compression;
+  }
+  EXPECT_EQ(exrText(folder_ / "a.exr", "ebru:method"), "");
+  EXPECT_EQ(exrText(folder_ / "a.exr", "imageCounter"), "") << "no text";
+  EXPECT_EQ(exrText(folder_ / "none.exr", "ebru:shot"), "");
+  std::ofstream(folder_ / "text.exr") << "only words";
+  EXPECT_EQ(exrText(folder_ / "text.exr", "ebru:shot"), "");
+}
+
 TEST_F(ExrFile, KeepsChannelsAndAttributes) {
   const ChannelImage written = picture();
   writeExr(folder_ / "a.exr", written);

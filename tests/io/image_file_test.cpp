@@ -27,11 +27,12 @@ class ImageFile : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   template <class T>
-  fs::path write(const std::string& name, int channels, const std::vector<T>& data, OIIO::TypeDesc type) {
+  fs::path write(const std::string& name, int channels, const std::vector<T>& data, OIIO::TypeDesc type,
+                 bool associated = false) {
     const fs::path path = folder_ / name;
     const auto output = OIIO::ImageOutput::create(path.string());
     OIIO::ImageSpec spec(static_cast<int>(data.size()) / channels, 1, channels, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (!associated) spec.attribute("oiio:UnassociatedAlpha", 1);
     EXPECT_TRUE(output->open(path.string(), spec));
     EXPECT_TRUE(output->write_image(type, data.data()));
     EXPECT_TRUE(output->close());
@@ -50,6 +51,23 @@ TEST_F(ImageFile, DecodesSrgbOfIntegersButNotAlpha) {
   EXPECT_NEAR(linear.data[2], 1.0f, 1e-6f);
   EXPECT_NEAR(linear.data[3], 128.0f / 255.0f, 1e-6f);
   EXPECT_NEAR(readImage(path, false).data[0], 188.0f / 255.0f, 1e-6f);
+}
+
+// Colour (0.8, 0.4, 0.2) at half opacity, as each format stores it.
+TEST_F(ImageFile, ColourIsNotMultipliedByAlphaWhateverTheFormatStores) {
+  const std::vector<float> straight = {0.8f, 0.4f, 0.2f, 0.5f}, multiplied = {0.4f, 0.2f, 0.1f, 0.5f};
+  const auto same = [](const fs::path& path, const std::vector<float>& expected) {
+    const LoadedImage image = readImage(path, false);
+    ASSERT_EQ(image.data.size(), expected.size()) << path;
+    for (std::size_t c = 0; c < expected.size(); ++c) EXPECT_NEAR(image.data[c], expected[c], 5e-3f) << path << " " << c;
+  };
+  same(write<float>("a.exr", 4, multiplied, OIIO::TypeDesc::FLOAT, true), straight);
+  same(write<float>("a.tif", 4, multiplied, OIIO::TypeDesc::FLOAT, true), straight);
+  same(write<float>("b.tif", 4, straight, OIIO::TypeDesc::FLOAT), straight);
+  same(write<unsigned char>("a.png", 4, {204, 102, 51, 128}, OIIO::TypeDesc::UINT8), straight);
+  // Nothing divides by zero, and opaque pixels are what they were.
+  const std::vector<float> rest = {3.0f, 2.0f, 1.0f, 0.0f, 0.25f, 0.5f, 7.0f, 1.0f};
+  EXPECT_EQ(readImage(write<float>("rest.exr", 4, rest, OIIO::TypeDesc::FLOAT, true), true).data, rest);
 }
 
 TEST_F(ImageFile, HeightMapKeepsSixteenBits) {

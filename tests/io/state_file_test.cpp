@@ -54,6 +54,16 @@ TEST_F(StateFile, RefusesAnotherFingerprint) {
   EXPECT_THROW(StateReader(path, "xyz"), InputError);
 }
 
+TEST_F(StateFile, ItsBeginningTellsWhoseItIs) {
+  EXPECT_FALSE(beginsAsState(path, "abc")) << "missing";
+  writeSample();
+  EXPECT_TRUE(beginsAsState(path, "abc"));
+  EXPECT_FALSE(beginsAsState(path, "ab"));
+  EXPECT_FALSE(beginsAsState(path, "xyz"));
+  replaceBytes(bytes().substr(0, 10));
+  EXPECT_FALSE(beginsAsState(path, "abc")) << "cut off";
+}
+
 TEST_F(StateFile, RefusesEveryTruncation) {
   writeSample();
   const std::string whole = bytes();

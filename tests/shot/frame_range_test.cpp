@@ -37,6 +37,11 @@ TEST(FrameRange, RefusesWhatItCannotRead) {
     EXPECT_THROW(parseFrames(text), UsageError) << text;
 }
 
+TEST(FrameRange, RefusesToLeaveNothing) {
+  for (const char* text : {"1-4y1", "7-7y1,3-1y1", "5-5y2"}) EXPECT_THROW(parseFrames(text), UsageError) << text;
+  EXPECT_EQ(parseFrames("1-4y1,7"), Frames({7}));
+}
+
 TEST(FrameRange, PrintsTheShortestText) {
   EXPECT_EQ(printFrames({1, 2, 3, 4}), "1-4");
   EXPECT_EQ(printFrames({9, 1, 5, 7}), "1,5-9x2");

@@ -136,6 +136,33 @@ TEST_F(ShotReader, GlowNeedsTheMapThatItIsMadeFrom) {
   EXPECT_EQ(problemsOf(good, {glowing, "texture.emission=a.png"}), "no problem");
 }
 
+TEST_F(ShotReader, ErosionNeedsTheFeatureMapsThatItIsToUse) {
+  const std::string erosion = std::string(good) + "[texture.erosion]\nfeature_map = \"image\"\n";
+  const std::string method = "texture.method=erosion";
+  EXPECT_TRUE(says(problemsOf(erosion, {method}),
+                   "dam.toml:18: texture.erosion.feature_image: number of files: got 0, expected 1"));
+  EXPECT_EQ(problemsOf(erosion, {method, "texture.erosion.feature_image=a.png"}), "no problem");
+  const std::string two = "texture.erosion.feature_image=[\"a.png\", \"b.png\"]";
+  EXPECT_TRUE(says(problemsOf(erosion, {method, two}), "--set " + two + ": texture.erosion.feature_image: number of files: got 2"));
+  EXPECT_TRUE(says(problemsOf(good, {method, two}), "got 2, expected 1 like texture.exemplar"));
+  EXPECT_EQ(problemsOf(good, {method, two, "texture.erosion.feature_map=distance"}), "no problem");
+  EXPECT_EQ(problemsOf(erosion), "no problem") << "other methods do not ask";
+}
+
+TEST_F(ShotReader, FlagsAreNamedAsTheyWereGiven) {
+  std::ofstream(folder_ / "dam.toml") << good;
+  try {
+    readShot(folder_ / "dam.toml", {"texture.method=plain"}, {{"texture.method=syntesis", "--method syntesis"}});
+    FAIL() << "no error";
+  } catch (const UsageError& error) {
+    EXPECT_TRUE(says(error.what(), "--method syntesis: texture.method: got \"syntesis\""));
+    EXPECT_TRUE(says(error.what(), "did you mean synthesis"));
+    EXPECT_EQ(std::string(error.what()).find("--set"), std::string::npos) << error.what();
+  }
+  const Shot shot = readShot(folder_ / "dam.toml", {"texture.method=plain"}, {{"texture.method=quilt", "--method quilt"}});
+  EXPECT_EQ(shot.texture.method, "quilt") << "flags win";
+}
+
 TEST_F(ShotReader, SaysWhereTheFileIsNotToml) {
   EXPECT_TRUE(says(problemsOf("[shot]\nname = = 3\n"), "dam.toml:2: not TOML"));
 }
@@ -321,6 +348,27 @@ TEST_F(ShotReader, FingerprintsSeeTheExemplarsContentAndNotItsFolder) {
   std::filesystem::copy_file(folder_ / "pebbles.png", elsewhere / "pebbles.png");
   std::ofstream(elsewhere / "dam.toml") << good;
   EXPECT_EQ(stateFingerprint(readShot(elsewhere / "dam.toml", {})), one);
+}
+
+TEST_F(ShotReader, FingerprintsDoNotDependOnHowFilesAreNamed) {
+  std::ofstream(folder_ / "pebbles.png") << "one";
+  const std::string state = stateFingerprint(read(good)), picture = pictureFingerprint(read(good));
+  const std::string absolute = folder_.string();
+  const std::vector<std::string> otherNames = {
+      "texture.exemplar=" + absolute + "/pebbles.png", "texture.exemplar=./pebbles.png",
+      "fluid.path=" + absolute + "/caches/dam.####.vdb", "fluid.path=caches/../caches/dam.####.vdb"};
+  for (const std::string& setting : otherNames) {
+    EXPECT_EQ(stateFingerprint(read(good, {setting})), state) << setting;
+    EXPECT_EQ(pictureFingerprint(read(good, {setting})), picture) << setting;
+  }
+  EXPECT_NE(stateFingerprint(read(good, {"fluid.path=caches/lava.####.vdb"})), state);
+
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  const std::string relative = stateFingerprint(readShot("dam.toml", {})), absoluteShot =
+      stateFingerprint(readShot(folder_ / "dam.toml", {}));
+  std::filesystem::current_path(here);
+  EXPECT_EQ(relative, absoluteShot);
 }
 
 }  // namespace

@@ -56,6 +56,35 @@ TEST_F(StateStoreTest, ResumedRunTakesOverTheTwoOfTheStoppedOne) {
   for (int f = 1; f <= 4; ++f) EXPECT_FALSE(onDisk(f)) << f;
 }
 
+// The shot was changed after a whole run: what that left at the end is in nobody's way.
+TEST_F(StateStoreTest, StatesOfAnotherFingerprintDoNotCount) {
+  StateStore before = open(false, false, "before");
+  for (int f = 1; f <= 8; ++f) save(before, f);
+  StateStore changed = open(true, false);
+  for (int f = 1; f <= 4; ++f) save(changed, f);
+  EXPECT_FALSE(onDisk(2));
+  EXPECT_TRUE(changed.valid(3));
+  EXPECT_TRUE(changed.valid(4));
+  StateStore again = open(true, false);
+  EXPECT_EQ(again.newest(0, 9)->frame, 4);
+  for (int f = 5; f <= 6; ++f) save(again, f);
+  EXPECT_FALSE(onDisk(3)) << "the shot's own two are taken over, however many others there are";
+  EXPECT_FALSE(onDisk(4));
+  EXPECT_TRUE(again.valid(6));
+}
+
+TEST_F(StateStoreTest, TheOneWrittenLastStays) {
+  StateStore stopped = open(false, false);
+  for (int f = 1; f <= 8; ++f) save(stopped, f);
+  StateStore gap = open(true, false);
+  for (int f = 1; f <= 4; ++f) {
+    save(gap, f);
+    EXPECT_TRUE(onDisk(f)) << f;
+  }
+  EXPECT_FALSE(onDisk(3));
+  EXPECT_TRUE(onDisk(8)) << "what comes after the gap goes on from there";
+}
+
 TEST_F(StateStoreTest, FindsTheNewestThatIsWholeAndOfThisShot) {
   StateStore synth = open(false, true);
   for (int f = 1; f <= 5; ++f) save(synth, f);

@@ -54,6 +54,7 @@ TEST(SurfacePiece, RefinedMeshIsTheSameSurfaceInSmallerTriangles) {
   const auto frame = zoo::sphere(1, Vec3f::Zero(), 0.5f, Vec3f::Zero());
   const TriangleMesh fine = refinedMesh(frame->mesh, 0.4f * meanEdge(frame->mesh));
   EXPECT_EQ(fine.triangles.size(), 16 * frame->mesh.triangles.size());
+  EXPECT_EQ(refinedTriangles(frame->mesh, 0.4f * meanEdge(frame->mesh)), static_cast<double>(fine.triangles.size()));
   EXPECT_LE(meanEdge(fine), 0.4f * meanEdge(frame->mesh));
   EXPECT_NEAR(surfaceArea(fine) / surfaceArea(frame->mesh), 1.0, 1e-5);
   // Without T-junctions: every edge of a closed surface has two triangles.

@@ -55,6 +55,14 @@ class EveryMethod : public ::testing::TestWithParam<std::string> {
   TextureOptions options_;
 };
 
+// Fingerprints count on it before there is a method.
+TEST_P(EveryMethod, LooksAsFarAheadAsItsOptionsSay) {
+  test::choose(GetParam(), options_);
+  options_.exemplar = {test::writeExemplar(folder_ / "exemplar.png", 48, test::discs).string()};
+  options_.look_ahead = 5;
+  EXPECT_EQ(method()->lookAhead(), lookAheadOf(options_));
+}
+
 TEST_P(EveryMethod, CoversEveryPointWithFiniteValues) {
   onEveryAnimal(test::discs, [&] {
     run([&](const TextureMethod& m, std::size_t k) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/machine_memory.h"
 #include "exemplar/feature_size.h"
 #include "surface/mesh_measures.h"
 #include "texturing/erosion/erosion_field.h"
@@ -24,16 +25,14 @@ constexpr float countedRadius = 0.75f;
 constexpr float firstSpacing = 1.0f;
 /// In frames, with texture.erosion.fade = "alpha".
 constexpr float fadeInFrames = 5.0f;
+/// Peak memory of a triangle of the refined surface with its part of the patches, and of a place that has no texture.
+constexpr double bytesPerTriangle = 150.0, bytesPerPlace = 150.0;
 
 FeatureMap featureMapOf(const Exemplar& exemplar, const ErosionOptions& options) {
   const std::string& wanted = options.feature_map;
   const bool any = wanted == "auto";
-  if (wanted == "image" || (any && !options.feature_image.empty())) {
-    if (options.feature_image.empty())
-      throw UsageError(
-          "texture.erosion.feature_image: got nothing, expected a file for feature_map = \"image\"");
+  if (wanted == "image" || (any && !options.feature_image.empty()))
     return FeatureMap(exemplar, FeatureSource::image, options.feature_image);
-  }
   if (wanted == "height" || (any && exemplar.hasHeight())) return FeatureMap(exemplar, FeatureSource::height);
   if (wanted == "alpha" || (any && exemplar.hasAlpha())) return FeatureMap(exemplar, FeatureSource::alpha);
   return FeatureMap(exemplar, FeatureSource::distance);
@@ -71,6 +70,7 @@ class ErosionMethod : public TextureMethod {
   std::vector<SurfacePlace> nextPlaces(const std::vector<SurfacePlace>& holes) const;
   std::vector<DeformablePatch> makePatches(const PatchMaker& maker, const std::vector<SurfacePlace>& places,
                                            float presence);
+  void checkMemory(const FluidFrame& frame) const;
   void checkCount(const FluidFrame& frame, std::size_t count) const;
   void publish();
 
@@ -131,6 +131,7 @@ void ErosionMethod::coverFrame(const FluidFrame& frame, const SurfaceRim& rim) {
     patches_.clear();
     return;
   }
+  checkMemory(frame);
   const TriangleMesh mesh = refinedMesh(frame.mesh, longestEdge * plan_.radiusWorld);
   Coverage found;
   {
@@ -188,6 +189,24 @@ std::vector<DeformablePatch> ErosionMethod::makePatches(const PatchMaker& maker,
   });
   nextId_ += static_cast<std::uint32_t>(places.size());
   return made;
+}
+
+/// Before anything of that size is made. Smaller patches want smaller triangles, smaller texels more places.
+void ErosionMethod::checkMemory(const FluidFrame& frame) const {
+  const double memory = machineMemory(), texel = plan_.texelWorld, radius = plan_.radiusWorld / texel;
+  const double area = surfaceArea(frame.mesh);
+  const auto check = [&](const char* key, double got, const char* unit, double count, const char* what, double bytes) {
+    const double limit = std::min(0.8 * memory / bytes, 4294967295.0 / 4);
+    if (count <= limit) return;
+    throw InputError(fmt::format(
+        "{}: {}: got {:g} {}, which needs {:.3g} {} for {:.3g} m2 of surface ({:.3g} GB; the machine has {:.3g}); "
+        "expected at least {:.2g} {}",
+        frame.source, key, got, unit, count, what, area, count * bytes / 1e9, memory / 1e9,
+        got * std::sqrt(count / limit) * 1.1, unit));
+  };
+  check("texture.texel_size", texel, "m", placesPerTexel * area / (texel * texel), "places", bytesPerPlace);
+  check("texture.erosion.radius", radius, "texels", refinedTriangles(frame.mesh, longestEdge * plan_.radiusWorld),
+        "triangles", bytesPerTriangle);
 }
 
 void ErosionMethod::checkCount(const FluidFrame& frame, std::size_t count) const {

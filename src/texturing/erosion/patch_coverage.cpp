@@ -11,7 +11,6 @@
 namespace ebru {
 namespace {
 
-constexpr float placesPerTexel = 1.0f;
 /// A patch that weighs less wherever it lies is not worth keeping.
 constexpr float seenWeight = 0.05f;
 /// Of holes, so many at most are counted for a place: more would not change the choice.

@@ -28,6 +28,9 @@ struct Coverage {
 Coverage coverage(std::span<const SurfacePlace> places, const PatchLayers& layers,
                   const PatchErosion& erosion, Showing showing);
 
+/// Of `coverageOfSurface`, per square texel.
+constexpr float placesPerTexel = 1.0f;
+
 /// The same for places all over a surface, one to a square texel; they depend on the mesh alone.
 Coverage coverageOfSurface(const TriangleMesh& mesh, float texelWorld, const PatchLayers& layers,
                            const PatchErosion& erosion, Showing showing);

@@ -1,11 +1,11 @@
 #include "texturing/particles/texture_particles.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 
 #include "core/error.h"
+#include "core/machine_memory.h"
 #include "core/parallel.h"
 #include "surface/mesh_measures.h"
 #include "surface/orientation_field.h"
@@ -104,7 +104,7 @@ void checkParticleCount(const FluidFrame& frame, float texelWorld) {
   const double texel = texelWorld;
   const double area = surfaceArea(frame.mesh);
   const double count = pointsPerTexel * area / (texel * texel);
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double memory = machineMemory();
   const double limit = std::min(0.8 * memory / bytesPerParticle, 4294967295.0 / 4);
   if (count <= limit) return;
   const double expected = texel * std::sqrt(count / limit) * 1.1;

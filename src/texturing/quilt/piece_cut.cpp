@@ -104,7 +104,7 @@ float PieceCut::pieceDifference(const Placement& placement, std::size_t k) const
   return unit_ * (shown - texture_->colour[m.index]).square().sum();
 }
 
-float PieceCut::cut(const Placement& placement, std::vector<std::uint8_t>& takes) {
+void PieceCut::cut(const Placement& placement, std::vector<std::uint8_t>& takes) {
   nodes_.resize(kinds_.size());
   squares_.resize(kinds_.size());
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
@@ -125,13 +125,6 @@ float PieceCut::cut(const Placement& placement, std::vector<std::uint8_t>& takes
     l.apart = (squares + anySeam) / linksPerTexel;
   }
   takes = minimumCut(nodes_, links_);
-  float cost = 0.0f;
-  for (std::size_t k = 0; k < takes.size(); ++k) {
-    cost += takes[k] ? nodes_[k].change : nodes_[k].keep;
-  }
-  for (const CutLink& l : links_)
-    cost += takes[l.a] != takes[l.b] ? l.apart : takes[l.a] ? 0.0f : std::min(l.both, 2.0f * l.apart);
-  return cost;
 }
 
 }  // namespace ebru

@@ -34,12 +34,12 @@ class PieceCut {
   /// Everything that does not depend on what the piece will show. The arguments have to live until the next call.
   void prepare(const QuiltSurface& surface, const Exemplar& exemplar, const Piece& piece);
 
-  /// About what `cut` would cost.
+  /// About what the least-cost cut would cost.
   float estimate(const Placement& placement);
 
+  /// Along which the seams, what is kept and what changes cost least together.
   /// @param takes  1 for the members that are to show the piece
-  /// @return cost of the seams, of what is kept and of what changes
-  float cut(const Placement& placement, std::vector<std::uint8_t>& takes);
+  void cut(const Placement& placement, std::vector<std::uint8_t>& takes);
 
  private:
   enum class Kind : std::uint8_t {
