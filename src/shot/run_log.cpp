@@ -105,7 +105,7 @@ std::string printPhases(const std::vector<PhaseTimes::Phase>& phases, double wal
     text += fmt::format("{:<{}}  {:>7}  {:>9.2f}  {:>5.1f}%\n", name, width, calls, seconds, 100.0 * seconds / wall);
   };
   for (const auto& phase : sorted) row(phase.name, fmt::format("{}", phase.calls), phase.seconds);
-  if (wallSeconds > covered) row("other", "", wallSeconds - covered);
+  row(wallSeconds >= covered ? "other" : "overlap", "", wallSeconds - covered);
   row("all", "", wallSeconds);
   return text;
 }

@@ -48,7 +48,8 @@ class RunLog {
 /// "9 s", "3 min 20 s", "2 h 05 min".
 std::string printDuration(double seconds);
 
-/// Name, calls, seconds and share of `wallSeconds` per phase, the slowest first; ends with what no phase covers.
+/// Name, calls, seconds and share of `wallSeconds` per phase, the slowest first; ends with what no phase covers, or with what is
+/// covered twice because two frames are worked on at once.
 /// @param phases  none within another, all within `wallSeconds`
 std::string printPhases(const std::vector<PhaseTimes::Phase>& phases, double wallSeconds);
 

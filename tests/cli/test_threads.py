@@ -13,6 +13,13 @@ def test_pictures_and_states_do_not_depend_on_the_threads(folder):
         assert len(files(folder / f"{method}1/states")) == 4
 
 
+def test_frames_that_overlap_are_those_made_one_by_one(folder):
+    shot = write_shot(folder, method="synthesis", last=4)
+    render(shot, folder / "overlapping", "--threads", "2", "--keep-states")
+    render(shot, folder / "sequential", "--threads", "2", "--keep-states", "--sequential")
+    assert_same_files(files(folder / "overlapping"), files(folder / "sequential"))
+
+
 def test_these_shots_look_ahead(folder):
     """Without its look-ahead quilt lays other texture in the shot above, so what looks ahead has run there."""
     shot = write_shot(folder, method="quilt", last=4)
