@@ -12,7 +12,17 @@ namespace {
 
 constexpr std::int64_t largestTable = std::int64_t{1} << 28;
 
-inline float lerp(float a, float b, float t) {
+/// All components of a sample at once. Three are read as four, which fill a register; the last is not used.
+template <int Components>
+using Lanes = Eigen::Array<float, Components == 1 ? 1 : 4, 1>;
+
+template <int Components>
+Lanes<Components> lanesAt(const float* sample) {
+  return Eigen::Map<const Lanes<Components>>(sample);
+}
+
+template <class Values>
+Values lerp(const Values& a, const Values& b, float t) {
   return a + t * (b - a);
 }
 
@@ -52,7 +62,7 @@ float* SampledGrid<Components>::addBlock(const Vec3i& block) {
   std::int32_t& number = table_[static_cast<std::size_t>(s)];
   if (number < 0) {
     number = static_cast<std::int32_t>(blockCount());
-    data_.resize(data_.size() + samplesPerBlock * Components, 0.0f);
+    data_.resize((blockCount() + 1) * samplesPerBlock * Components + pastTheEnd, 0.0f);
   }
   return data_.data() + static_cast<std::size_t>(number) * samplesPerBlock * Components;
 }
@@ -99,14 +109,13 @@ bool SampledGrid<Components>::sample(const Vec3f& pWorld, Value& value) const {
   const float* v = locate(pWorld, local, t);
   if (!v) return false;
   constexpr int dx = Components, dy = side * Components, dz = side * side * Components;
-  for (int c = 0; c < Components; ++c) {
-    const float* s = v + c;
-    const float v00 = lerp(s[0], s[dx], t.x());
-    const float v10 = lerp(s[dy], s[dy + dx], t.x());
-    const float v01 = lerp(s[dz], s[dz + dx], t.x());
-    const float v11 = lerp(s[dz + dy], s[dz + dy + dx], t.x());
-    value[c] = lerp(lerp(v00, v10, t.y()), lerp(v01, v11, t.y()), t.z());
-  }
+  using L = Lanes<Components>;
+  const auto along = [&](const float* s) -> L {
+    return lerp(lanesAt<Components>(s), lanesAt<Components>(s + dx), t.x());
+  };
+  const L v0 = lerp(along(v), along(v + dy), t.y());
+  const L v1 = lerp(along(v + dz), along(v + dz + dy), t.y());
+  value = lerp(v0, v1, t.z()).template head<Components>();
   return true;
 }
 
@@ -118,18 +127,19 @@ bool SampledGrid<Components>::sampleWithGradient(const Vec3f& pWorld, Value& val
   const float* v = locate(pWorld, local, t);
   if (!v) return false;
   constexpr int dx = Components, dy = side * Components, dz = side * side * Components;
-  for (int c = 0; c < Components; ++c) {
-    const float* s = v + c;
-    const float d00 = s[dx] - s[0], d10 = s[dy + dx] - s[dy];
-    const float d01 = s[dz + dx] - s[dz], d11 = s[dz + dy + dx] - s[dz + dy];
-    const float v00 = s[0] + t.x() * d00, v10 = s[dy] + t.x() * d10;
-    const float v01 = s[dz] + t.x() * d01, v11 = s[dz + dy] + t.x() * d11;
-    const float v0 = lerp(v00, v10, t.y()), v1 = lerp(v01, v11, t.y());
-    value[c] = lerp(v0, v1, t.z());
-    gradient(c, 0) = inverseVoxelSize_ * lerp(lerp(d00, d10, t.y()), lerp(d01, d11, t.y()), t.z());
-    gradient(c, 1) = inverseVoxelSize_ * lerp(v10 - v00, v11 - v01, t.z());
-    gradient(c, 2) = inverseVoxelSize_ * (v1 - v0);
-  }
+  using L = Lanes<Components>;
+  const auto at = [](const float* s) -> L { return lanesAt<Components>(s); };
+  const L s00 = at(v), s10 = at(v + dy), s01 = at(v + dz), s11 = at(v + dz + dy);
+  const L d00 = at(v + dx) - s00, d10 = at(v + dy + dx) - s10;
+  const L d01 = at(v + dz + dx) - s01, d11 = at(v + dz + dy + dx) - s11;
+  const L v00 = s00 + t.x() * d00, v10 = s10 + t.x() * d10;
+  const L v01 = s01 + t.x() * d01, v11 = s11 + t.x() * d11;
+  const L v0 = lerp(v00, v10, t.y()), v1 = lerp(v01, v11, t.y());
+  const auto put = [](const L& lanes, auto&& target) { target = lanes.template head<Components>().matrix(); };
+  put(lerp(v0, v1, t.z()), value);
+  put(inverseVoxelSize_ * lerp(lerp(d00, d10, t.y()), lerp(d01, d11, t.y()), t.z()), gradient.col(0));
+  put(inverseVoxelSize_ * lerp(L(v10 - v00), L(v11 - v01), t.z()), gradient.col(1));
+  put(inverseVoxelSize_ * (v1 - v0), gradient.col(2));
   return true;
 }
 

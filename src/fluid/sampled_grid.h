@@ -41,7 +41,7 @@ class SampledGrid {
   /// Pointers are invalidated by the next call. Not thread-safe.
   float* addBlock(const Vec3i& block);
   /// Makes room for `count` blocks in all, so that adding them does not copy.
-  void reserveBlocks(std::size_t count) { data_.reserve(count * samplesPerBlock * Components); }
+  void reserveBlocks(std::size_t count) { data_.reserve(count * samplesPerBlock * Components + pastTheEnd); }
   /// A block's samples, or null.
   const float* block(const Vec3i& block) const;
   float* block(const Vec3i& block);
@@ -53,6 +53,9 @@ class SampledGrid {
                           Eigen::Matrix<float, Components, 3>& gradient) const;
 
  private:
+  /// The last sample, too, is read as four floats.
+  static constexpr std::size_t pastTheEnd = Components == 1 ? 0 : 1;
+
   std::int64_t slot(const Vec3i& block) const;
   const float* locate(const Vec3f& pWorld, Vec3i& local, Vec3f& fraction) const;
 

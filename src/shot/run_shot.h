@@ -25,7 +25,8 @@ struct RunOptions {
   std::string command;           ///< repeats this run; for messages
 };
 
-/// Frames to OUT/NAME.####.exr; with previews a movie of all frames of the shot whose previews in OUT are current. Pixels depend on neither the frames asked for nor the threads.
+/// Frames to OUT/NAME.####.exr; with previews a movie of all frames of the shot whose previews in OUT are current.
+/// Pixels depend on neither the frames asked for nor the
 /// @throw UsageError, InputError, OutputError; Interrupted after SIGINT or SIGTERM. Files on disk are whole in every case.
 void renderShot(const Shot& shot, const RunOptions& options);
 
