@@ -277,6 +277,16 @@ TEST_F(WholeFeatures, HiddenOnesDoNotComeOutDistorted) {
   EXPECT_GE(margin(Vec2f::Zero()), 0.0f) << "it was seen and is good enough to stay";
 }
 
+// A feature of which a third is drawn out to twenty times its length is mostly that third, to who looks at it.
+TEST_F(WholeFeatures, AreJudgedByTheirAreaOnTheSurface) {
+  patch_.seen = {cells_.at(0, patch_.centreSt)};
+  patch_.position = flatPatch(40).position;
+  for (Vec3f& p : patch_.position) p.x() += 19.0f * std::clamp(p.x(), -0.03f, 0.03f);
+  measure(radius, 3.0f, patch_);
+  erosion_.judge(patch_);
+  EXPECT_LT(margin(Vec2f(-0.06f, 0.0f)), 0.0f) << "beside it, where nothing is drawn out";
+}
+
 std::vector<std::uint32_t> patchesAt(const PatchLayers& layers, const Vec3f& p, const Vec3f& normal) {
   std::vector<std::uint32_t> found;
   layers.visit(p, normal, [&](const PatchLayers::Layer& layer) {

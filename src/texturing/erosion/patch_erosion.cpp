@@ -8,6 +8,17 @@ namespace {
 /// What features that come out have at least.
 constexpr float freshQuality = 0.8f;
 
+/// A third of the triangles around each vertex, square metres.
+std::vector<float> vertexAreas(const DeformablePatch& patch) {
+  std::vector<float> areas(patch.position.size(), 0.0f);
+  for (const Vec3i& t : patch.triangles) {
+    const auto at = [&](int c) -> const Vec3f& { return patch.position[static_cast<std::size_t>(t[c])]; };
+    const float third = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 6.0f;
+    for (int c = 0; c < 3; ++c) areas[static_cast<std::size_t>(t[c])] += third;
+  }
+  return areas;
+}
+
 }  // namespace
 
 void PatchErosion::judge(DeformablePatch& patch) const {
@@ -15,31 +26,35 @@ void PatchErosion::judge(DeformablePatch& patch) const {
   if (!cells_) return;
   struct Part {
     std::uint32_t cell;
-    float quality;
+    float quality, area;
     bool cut;
   };
   std::vector<Part> parts;
   parts.reserve(2 * patch.rest.size());
-  const auto add = [&](const Vec2f& rest, float quality, bool cut) {
-    if (inImage(patch, rest)) parts.push_back({cells_->at(patch.tile, placeOf(patch, rest)), quality, cut});
+  const auto add = [&](const Vec2f& rest, float quality, float area, bool cut) {
+    if (inImage(patch, rest))
+      parts.push_back({cells_->at(patch.tile, placeOf(patch, rest)), quality, area, cut});
   };
-  for (std::size_t v = 0; v < patch.rest.size(); ++v) add(patch.rest[v], patch.quality[v], patch.rim[v] != 0);
+  const std::vector<float> areas = vertexAreas(patch);
+  for (std::size_t v = 0; v < patch.rest.size(); ++v)
+    add(patch.rest[v], patch.quality[v], areas[v], patch.rim[v] != 0);
   for (const Vec3i& t : patch.triangles)
     for (int c = 0; c < 3; ++c) {
       const auto a = static_cast<std::size_t>(t[c]), b = static_cast<std::size_t>(t[(c + 1) % 3]);
-      if (patch.rim[a] && patch.rim[b]) add(0.5f * (patch.rest[a] + patch.rest[b]), 0.0f, true);
+      if (patch.rim[a] && patch.rim[b]) add(0.5f * (patch.rest[a] + patch.rest[b]), 0.0f, 0.0f, true);
     }
   std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.cell < b.cell; });
   for (std::size_t i = 0; i < parts.size();) {
     std::size_t end = i;
-    float quality = 0.0f;
+    float quality = 0.0f, area = 0.0f;
     bool cut = false;
     for (; end < parts.size() && parts[end].cell == parts[i].cell; ++end) {
-      quality += parts[end].quality;
+      quality += parts[end].area * parts[end].quality;
+      area += parts[end].area;
       cut |= parts[end].cut;
     }
     const std::uint32_t cell = parts[i].cell;
-    quality /= static_cast<float>(end - i);
+    quality = area > 0.0f ? quality / area : 0.0f;
     const bool hidden = !std::binary_search(patch.seen.begin(), patch.seen.end(), cell);
     Keeping kept = keeping(cellTerm(patch, cell), patch, quality);
     if (cut || (hidden && quality < freshQuality)) kept = {-1.0f, 0.0f};

@@ -13,7 +13,7 @@ namespace ebru {
 ///     sqrt(F + D) / max sqrt(F + D) - epsilon < 1 - w,
 /// F the feature map, D the place's nearness to the centre, w the weight of eq. 3.
 /// With cells, whole features are: F is a feature's importance, D is taken at its middle and w is the mean
-/// quality on it. One that the rim of the patch cuts is eroded, but for large ones, of which a patch does not
+/// quality on it, by area. One that the rim of the patch cuts is eroded, but for large ones, of which a patch does not
 /// hold many, and the one in the middle: their places are judged one by one, as are those of cells smaller
 /// than the triangles. A feature that was hidden in the frame before comes out only while it is hardly
 /// distorted: else it would go again soon. What lies beyond the exemplar's image is eroded. Texture fades
