@@ -11,8 +11,8 @@
 
 namespace ebru {
 
-/// Lengths and amounts of light beyond these, in metres and as radiance, are mistakes: their squares leave
-/// what floats can hold.
+/// Lengths (metres) and amounts of light (radiance) beyond these are mistakes; up to them the squares of what
+/// is computed, and sums of them, stay within what floats can hold.
 constexpr double mostWorld = 1e9, mostLight = 1e9;
 
 inline OptionField optionField(std::string key, OptionTarget target, std::string unit, std::string help,

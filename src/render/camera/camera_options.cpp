@@ -11,8 +11,10 @@ struct PoseFields {
   OptionField position, target, up, fov, height, focus;
 
   explicit PoseFields(Options& o)
-      : position(optionField("position", &o.position, "m", "Where the camera stands.")),
-        target(optionField("target", &o.target, "m", "The point in the middle of the picture.")),
+      : position(
+            optionField("position", &o.position, "m", "Where the camera stands.", -mostWorld, mostWorld)),
+        target(optionField("target", &o.target, "m", "The point in the middle of the picture.", -mostWorld,
+                           mostWorld)),
         up(optionField("up", &o.up, "",
                        "The direction that is up in the picture; any length, not along the view.")),
         fov(optionField("vertical_fov_deg", &o.vertical_fov_deg, "deg",
@@ -21,11 +23,11 @@ struct PoseFields {
             "orthographic_height", &o.orthographic_height, "m",
             "Orthographic: height of the picture in the world; its width follows from the pixels, which "
             "are square.",
-            1e-6)),
+            1e-6, mostWorld)),
         focus(optionField(
             "focus_distance", &o.focus_distance, "m",
-            "How far in front of the camera, along its axis, things are sharp; 0 is where target is.", 0.0)) {
-  }
+            "How far in front of the camera, along its axis, things are sharp; 0 is where target is.", 0.0,
+            mostWorld)) {}
 };
 
 }  // namespace
@@ -42,7 +44,7 @@ OptionFields fields(CameraOptions& o) {
       optionField("size", &o.size, "px", "Width and height of the picture.", 1, 65536),
       optionField("aperture_diameter", &o.aperture_diameter, "m",
                   "Of a thin lens: its focal length divided by the f-number. 0 is a pinhole: all is sharp.",
-                  0.0),
+                  0.0, mostWorld),
       pose.focus,
       optionField(
           "shutter", &o.shutter, "frames",

@@ -23,7 +23,7 @@ constexpr float worthFollowing = 0.1f;
 /// What is left of light after its way through a medium. Light from infinitely far has not come all its way
 /// in it.
 Vec3f transmittance(const Vec3f& absorptionPerMetre, float distanceWorld) {
-  if (std::isinf(distanceWorld)) return Vec3f::Ones();
+  if (absorptionPerMetre.isZero(0.0f) || std::isinf(distanceWorld)) return Vec3f::Ones();
   return (-distanceWorld * absorptionPerMetre.array()).exp();
 }
 

@@ -34,13 +34,13 @@ Materials::Materials(const SceneOptions& options, const TextureField* texture)
     obstacles_.push_back(makeMaterial(obstacle.material));
 }
 
-const Material& Materials::plain(const SurfaceHit& hit) const {
+const Material& Materials::untextured(const SurfaceHit& hit) const {
   if (hit.kind == SurfaceKind::fluid) return fluid_;
   return hit.kind == SurfaceKind::obstacle ? obstacles_[hit.obstacle] : ground_;
 }
 
 bool Materials::fills(const SurfaceHit& hit, Vec3f& absorptionPerMetre) const {
-  const Material& material = plain(hit);
+  const Material& material = untextured(hit);
   if (material.type != MaterialType::dielectric) return false;
   absorptionPerMetre = material.absorptionPerMetre;
   return true;
@@ -49,7 +49,7 @@ bool Materials::fills(const SurfaceHit& hit, Vec3f& absorptionPerMetre) const {
 Appearance Materials::at(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const {
   if (hit.kind == SurfaceKind::fluid) return fluid(hit, rayDirection, widthWorld);
   Appearance appearance;
-  appearance.material = plain(hit);
+  appearance.material = untextured(hit);
   if (hit.kind == SurfaceKind::obstacle) return appearance;
   const double square = groundOptions_.checker_size;
   if (square > 0.0) {

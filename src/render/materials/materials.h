@@ -28,13 +28,13 @@ class Materials {
   ///                    1 / cosine; the texture is given the root of its axes' product, stretched by at most
   ///                    4
   Appearance at(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
-  /// Whether the body that a hit bounds is a dielectric; if so, what is lost in it.
+  /// Whether the body that a hit bounds is a dielectric; if so, what is lost in it, else that is untouched.
   bool fills(const SurfaceHit& hit, Vec3f& absorptionPerMetre) const;
   /// Whether anything may give off light.
   bool emits() const { return emission_.any(); }
 
  private:
-  const Material& plain(const SurfaceHit& hit) const;
+  const Material& untextured(const SurfaceHit& hit) const;
   Appearance fluid(const SurfaceHit& hit, const Vec3f& rayDirection, float widthWorld) const;
 
   const TextureField* texture_;

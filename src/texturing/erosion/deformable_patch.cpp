@@ -96,7 +96,7 @@ CarriedVertex carried(const Flow& flow, const FluidFrame& to, float mostWorld, c
 void measure(float radiusWorld, float maxDistortion, DeformablePatch& patch) {
   patch.distortion.resize(patch.triangles.size());
   patch.quality.assign(patch.position.size(), 0.0f);
-  std::vector<float> areas(patch.position.size(), 0.0f);
+  patch.area.assign(patch.position.size(), 0.0f);
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     float area = 0.0f;
     patch.distortion[t] = distortionOf(patch, patch.triangles[t], area);
@@ -104,12 +104,12 @@ void measure(float radiusWorld, float maxDistortion, DeformablePatch& patch) {
         std::clamp((maxDistortion - patch.distortion[t]) / (maxDistortion - 1.0f), 0.0f, 1.0f);
     for (const std::size_t v : corners(patch.triangles[t])) {
       patch.quality[v] += area * quality;
-      areas[v] += area;
+      patch.area[v] += area;
     }
   }
   patch.rim = rimVertices(patch.triangles, patch.position.size());
   for (std::size_t v = 0; v < patch.rim.size(); ++v) {
-    patch.quality[v] = areas[v] > 0.0f ? patch.quality[v] / areas[v] : 0.0f;
+    patch.quality[v] = patch.area[v] > 0.0f ? patch.quality[v] / patch.area[v] : 0.0f;
     if (patch.rest[v].norm() <= centreRadius * radiusWorld || patch.atEnd[v]) patch.rim[v] = 0;
   }
   patch.weight = rimNearness(patch, radiusWorld);

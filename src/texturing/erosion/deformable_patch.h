@@ -41,6 +41,7 @@ struct DeformablePatch : PatchIdentity {
       seen;  ///< cells of it that were seen in the last frame, of a new one that are to be, ascending
 
   /// Of the present shape; see `measure`.
+  std::vector<float> area;     ///< per vertex, square metres, twice those of the triangles around
   std::vector<float> quality;  ///< per vertex, Q_V of eq. 1, in [0, 1]
   std::vector<unsigned char>
       rim;  ///< per vertex, 1 on the rim, but for what is within r/4 of the centre or at the surface's end

@@ -8,17 +8,6 @@ namespace {
 /// What features that come out have at least.
 constexpr float freshQuality = 0.8f;
 
-/// A third of the triangles around each vertex, square metres.
-std::vector<float> vertexAreas(const DeformablePatch& patch) {
-  std::vector<float> areas(patch.position.size(), 0.0f);
-  for (const Vec3i& t : patch.triangles) {
-    const auto at = [&](int c) -> const Vec3f& { return patch.position[static_cast<std::size_t>(t[c])]; };
-    const float third = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 6.0f;
-    for (int c = 0; c < 3; ++c) areas[static_cast<std::size_t>(t[c])] += third;
-  }
-  return areas;
-}
-
 }  // namespace
 
 void PatchErosion::judge(DeformablePatch& patch) const {
@@ -35,9 +24,8 @@ void PatchErosion::judge(DeformablePatch& patch) const {
     if (inImage(patch, rest))
       parts.push_back({cells_->at(patch.tile, placeOf(patch, rest)), quality, area, cut});
   };
-  const std::vector<float> areas = vertexAreas(patch);
   for (std::size_t v = 0; v < patch.rest.size(); ++v)
-    add(patch.rest[v], patch.quality[v], areas[v], patch.rim[v] != 0);
+    add(patch.rest[v], patch.quality[v], patch.area[v], patch.rim[v] != 0);
   for (const Vec3i& t : patch.triangles)
     for (int c = 0; c < 3; ++c) {
       const auto a = static_cast<std::size_t>(t[c]), b = static_cast<std::size_t>(t[(c + 1) % 3]);
