@@ -17,8 +17,9 @@ class Flow {
   /// Velocity at `time` in [0, 1] frames after `from`. @return false where neither frame knows one.
   bool velocity(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec) const;
 
-  /// RK3 (Ralston) from time 0 to 1, in ceil(speed * dt / voxel) sub-steps, speed being the larger of the two
-  /// frames' at `pWorld` and voxel the smaller of their surfaces'. A point whose velocity is exactly zero
+  /// RK3 (Ralston) from time 0 to 1. The sub-steps are as long as the error of the midpoint rule, which needs no other slopes than
+  /// RK3, stays below 0.02 voxels in the first of them, where they are at most 4 voxels long and need not be shorter than one. Voxel
+  /// is the smaller of the frames' surfaces'. A point whose velocity is exactly zero
   /// comes back bit for bit, so does one whose velocity is unknown. Where it becomes unknown on the way, the
   /// last known one is kept.
   Vec3f forward(const Vec3f& pWorld) const;
@@ -38,10 +39,7 @@ class Flow {
   double secondsPerFrame() const { return secondsPerFrame_; }
 
  private:
-  /// Velocities of both frames; where only one knows it, its own for both. @return false where neither does
-  bool ends(const Vec3f& pWorld, Vec3f& a, Vec3f& b) const;
-  bool velocities(const Vec3f& pWorld, float time, Vec3f& v, float otherTime, Vec3f& other) const;
-  int subSteps(float travelWorld) const;
+  class SubSteps;
   bool gradient(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec, Mat3f& gradient) const;
 
   const FluidFrame* from_;
