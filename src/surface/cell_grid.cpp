@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "core/error.h"
+
 namespace ebru {
 namespace {
 
@@ -32,9 +34,18 @@ void CellGrid::insert(std::uint32_t index, const Vec3f& pWorld) {
     ++used_;
   }
   std::uint32_t& head = block.heads[placeOf(cell)];
-  entries_.push_back({index, head});
+  entries_.push_back({pWorld, index, head});
   head = static_cast<std::uint32_t>(entries_.size() - 1);
   if (2 * used_ > blocks_.size()) grow();
+}
+
+void CellGrid::remove(std::uint32_t index, const Vec3f& pWorld) {
+  const Vec3i cell = cellOf(pWorld);
+  Block& block = blocks_[slotOf(keyOf(blockOf(cell)))];
+  std::uint32_t* link = &block.heads[placeOf(cell)];
+  while (*link != none && entries_[*link].index != index) link = &entries_[*link].next;
+  if (*link == none) throw BugError("CellGrid::remove: no such point");
+  *link = entries_[*link].next;
 }
 
 void CellGrid::grow() {

@@ -8,8 +8,8 @@
 
 namespace ebru {
 
-/// A hashed uniform grid over points: constant-time insertion and fixed-radius look-up. Positions stay with the caller.
-/// Look-ups are safe to call concurrently while nobody inserts; their order depends only on the order of insertion.
+/// A hashed uniform grid over points: constant-time insertion and fixed-radius look-up. Keeps the positions beside the indices,
+/// so that a look-up reads nothing of the caller's for points out of reach. Look-ups are safe to call concurrently while nobody inserts; their order depends only on the order of insertion.
 class CellGrid {
  public:
   /// @param cellSizeWorld  metres; as large as the usual look-up radius
@@ -17,22 +17,33 @@ class CellGrid {
   CellGrid(float cellSizeWorld, std::size_t expectedPoints);
 
   void insert(std::uint32_t index, const Vec3f& pWorld);
+  /// Takes out a point that was inserted with that index and place.
+  void remove(std::uint32_t index, const Vec3f& pWorld);
 
-  /// Calls visit(index) for every point of the ball, and for some near it.
+  /// Calls visit(index, distanceSquared) for every point nearer than `radiusWorld`.
   template <class Visit>
   void forEachNear(const Vec3f& pWorld, float radiusWorld, Visit&& visit) const {
-    anyNear(pWorld, radiusWorld, [&](std::uint32_t i) {
-      visit(i);
+    anyNear(pWorld, radiusWorld, [&](std::uint32_t i, float distanceSquared) {
+      visit(i, distanceSquared);
       return false;
     });
   }
 
-  /// True if matches(index) holds for some point near the ball; the cell of its centre is asked first.
+  /// Whether there is a point nearer than `radiusWorld`, the cell of the centre is asked first.
+  bool anyNear(const Vec3f& pWorld, float radiusWorld) const {
+    return anyNear(pWorld, radiusWorld, [](std::uint32_t, float) { return true; });
+  }
+  /// Whether matches(index, distanceSquared) holds for one of them.
   template <class Matches>
   bool anyNear(const Vec3f& pWorld, float radiusWorld, Matches&& matches) const {
+    const float reachSquared = radiusWorld * radiusWorld;
     const auto inCell = [&](std::uint32_t head) {
-      for (std::uint32_t i = head; i != none; i = entries_[i].next)
-        if (matches(entries_[i].index)) return true;
+      for (std::uint32_t i = head; i != none;) {
+        const Entry& entry = entries_[i];
+        const float distanceSquared = (entry.position - pWorld).squaredNorm();
+        if (distanceSquared < reachSquared && matches(entry.index, distanceSquared)) return true;
+        i = entry.next;
+      }
       return false;
     };
     const Vec3i centre = cellOf(pWorld);
@@ -69,6 +80,7 @@ class CellGrid {
     std::array<std::uint32_t, 8> heads = {none, none, none, none, none, none, none, none};
   };
   struct Entry {
+    Vec3f position;
     std::uint32_t index, next;
   };
 

@@ -20,22 +20,23 @@ constexpr float termsPerDeviation = 2.6f;
 /// sigma^2: exp(-s (1 - A)), s = sigma^2 / ringVariance, by its Chebyshev series, which needs about
 /// sigma products with A where repeating it would need s.
 std::vector<Vec3f> diffused(std::span<const Vec3f> vectors, const PointGraph& graph, float sigma) {
+  using Vec4f = Eigen::Vector4f;  // fills a register
   const float t = halfSpectrum * sigma * sigma / ringVariance;
   const int terms = static_cast<int>(std::ceil(termsPerDeviation * std::sqrt(t)));
   const auto coefficient = [&](int k) {  // of T_k in exp(t y - t); at y = 1 all sum to 1
     const float c = static_cast<float>(std::exp(-t) * std::cyl_bessel_i(static_cast<float>(k), t));
     return k == 0 ? c : 2.0f * c;
   };
-  std::vector<Vec3f> before(vectors.begin(), vectors.end()), now, next(vectors.size()), sum(vectors.size());
+  std::vector<Vec4f> before(vectors.size()), now(vectors.size()), next(vectors.size()), sum(vectors.size());
+  parallelFor(vectors.size(), 4096, [&](std::size_t i) { before[i] << vectors[i], 0.0f; });
   // y = (A - centre of the spectrum) / half its width
-  const auto product = [&](const std::vector<Vec3f>& v, std::size_t i) {
+  const auto product = [&](const std::vector<Vec4f>& v, std::size_t i) {
     const auto ring = graph.of(static_cast<std::uint32_t>(i));
-    Vec3f mean = v[i];
-    for (const std::uint32_t j : ring) mean += v[j];
-    mean /= static_cast<float>(ring.size() + 1);
-    return Vec3f((mean - (1.0f - halfSpectrum) * v[i]) / halfSpectrum);
+    Vec4f total = v[i];
+    for (const std::uint32_t j : ring) total += v[j];
+    const float share = 1.0f / (halfSpectrum * static_cast<float>(ring.size() + 1));
+    return Vec4f(share * total - ((1.0f - halfSpectrum) / halfSpectrum) * v[i]);
   };
-  now.resize(vectors.size());
   const float c0 = coefficient(0), c1 = terms > 0 ? coefficient(1) : 0.0f;
   parallelFor(vectors.size(), 2048, [&](std::size_t i) {
     now[i] = product(before, i);
@@ -50,7 +51,9 @@ std::vector<Vec3f> diffused(std::span<const Vec3f> vectors, const PointGraph& gr
     before.swap(now);
     now.swap(next);
   }
-  return sum;
+  std::vector<Vec3f> result(vectors.size());
+  parallelFor(result.size(), 4096, [&](std::size_t i) { result[i] = sum[i].head<3>(); });
+  return result;
 }
 
 constexpr float leastCosine = 0.35f;

@@ -10,11 +10,9 @@
 namespace ebru {
 namespace {
 
-bool crowded(const CellGrid& grid, const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
-             const Dart& dart, float radius) {
-  return grid.anyNear(dart.position, radius, [&](std::uint32_t i) {
-    return (positions[i] - dart.position).squaredNorm() < radius * radius && normals[i].dot(dart.normal) > 0.0f;
-  });
+bool crowded(const CellGrid& grid, const std::vector<Vec3f>& normals, const Dart& dart, float radius) {
+  return grid.anyNear(dart.position, radius,
+                      [&](std::uint32_t i, float) { return normals[i].dot(dart.normal) > 0.0f; });
 }
 
 }  // namespace
@@ -31,7 +29,7 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
     const int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
     for (int d = 0; d < darts; ++d) {
       const Dart dart = throwDart(mesh, t, random);
-      if (crowded(grid, samples.positions, samples.normals, dart, spacingWorld)) continue;
+      if (crowded(grid, samples.normals, dart, spacingWorld)) continue;
       grid.insert(static_cast<std::uint32_t>(samples.size()), dart.position);
       samples.positions.push_back(dart.position);
       samples.normals.push_back(dart.normal);
@@ -39,11 +37,11 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
   }
 }
 
-SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
-                        const std::vector<Vec3f>& normals, const CellGrid& grid, float gapWorld, float spacingWorld,
-                        std::uint64_t seed) {
+SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals, const CellGrid& grid,
+                        float gapWorld, float spacingWorld, std::uint64_t seed) {
   // Candidates are found concurrently in fixed blocks, then thinned in order.
-  const double dartsPerArea = 2.0 / (static_cast<double>(spacingWorld) * spacingWorld);
+  const double dartsPerArea = 1.5 / (static_cast<double>(spacingWorld) * spacingWorld);
+  constexpr int moreDarts = 3;
   constexpr std::size_t block = 512;
   std::vector<std::vector<Dart>> candidates((mesh.triangles.size() + block - 1) / block);
   parallelBlocks(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {
@@ -52,10 +50,11 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
       std::vector<Dart>& found = candidates[begin / block];
       const std::size_t before = found.size();
       int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
-      const int more = 2 * darts;
+      const int more = moreDarts * darts;
+      SpreadDarts spread(random);
       for (int d = 0; d < darts; ++d) {
-        const Dart dart = throwDart(mesh, t, random);
-        if (crowded(grid, positions, normals, dart, gapWorld)) continue;
+        const Dart dart = spread.next(mesh, t);
+        if (crowded(grid, normals, dart, gapWorld)) continue;
         if (found.size() == before) darts += more;
         found.push_back(dart);
       }
@@ -66,7 +65,7 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
   CellGrid chosen(spacingWorld, 1024);
   for (const std::vector<Dart>& darts : candidates)
     for (const Dart& dart : darts) {
-      if (crowded(chosen, gaps.positions, gaps.normals, dart, spacingWorld)) continue;
+      if (crowded(chosen, gaps.normals, dart, spacingWorld)) continue;
       chosen.insert(static_cast<std::uint32_t>(gaps.size()), dart.position);
       gaps.positions.push_back(dart.position);
       gaps.normals.push_back(dart.normal);
@@ -78,7 +77,7 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
                         const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed) {
   CellGrid grid(gapWorld, positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), positions[i]);
-  return findGaps(mesh, positions, normals, grid, gapWorld, spacingWorld, seed);
+  return findGaps(mesh, normals, grid, gapWorld, spacingWorld, seed);
 }
 
 std::vector<std::uint32_t> pointsApart(std::span<const Vec3f> positions, std::span<const std::uint32_t> order,
@@ -86,10 +85,7 @@ std::vector<std::uint32_t> pointsApart(std::span<const Vec3f> positions, std::sp
   std::vector<std::uint32_t> taken;
   CellGrid grid(apartWorld, 256);
   for (const std::uint32_t i : order) {
-    const bool near = grid.anyNear(positions[i], apartWorld, [&](std::uint32_t j) {
-      return (positions[j] - positions[i]).squaredNorm() < apartWorld * apartWorld;
-    });
-    if (near) continue;
+    if (grid.anyNear(positions[i], apartWorld)) continue;
     grid.insert(i, positions[i]);
     taken.push_back(i);
   }

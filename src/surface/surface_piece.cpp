@@ -80,15 +80,13 @@ SurfaceRim::SurfaceRim(const TriangleMesh& mesh)
   const std::vector<unsigned char> rim = rimVertices(mesh.triangles, mesh.positions.size());
   for (std::size_t v = 0; v < rim.size(); ++v) {
     if (!rim[v]) continue;
-    grid_.insert(static_cast<std::uint32_t>(places_.size()), mesh.positions[v]);
-    places_.push_back(mesh.positions[v]);
+    grid_.insert(static_cast<std::uint32_t>(v), mesh.positions[v]);
+    empty_ = false;
   }
 }
 
 bool SurfaceRim::near(const Vec3f& pWorld) const {
-  return !empty() && grid_.anyNear(pWorld, reachWorld_, [&](std::uint32_t i) {
-    return (places_[i] - pWorld).squaredNorm() < reachWorld_ * reachWorld_;
-  });
+  return !empty_ && grid_.anyNear(pWorld, reachWorld_);
 }
 
 PieceCutter::PieceCutter(const TriangleMesh& mesh) : mesh_(mesh), firstOfVertex_(mesh.positions.size() + 1, 0) {

@@ -48,12 +48,12 @@ class PieceCutter {
 class SurfaceRim {
  public:
   explicit SurfaceRim(const TriangleMesh& mesh);
-  bool empty() const { return places_.empty(); }
+  bool empty() const { return empty_; }
   /// Whether a place is within about one and a half edges of the end.
   bool near(const Vec3f& pWorld) const;
 
  private:
-  std::vector<Vec3f> places_;
+  bool empty_ = true;
   float reachWorld_;
   CellGrid grid_;
 };

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "core/error.h"
 #include "surfaces.h"
 
 namespace ebru {
@@ -23,7 +24,7 @@ CellGrid gridOf(const std::vector<Vec3f>& points, float cell, std::size_t expect
 }
 
 // Points on both sides of the origin; the table expects one point and has to grow.
-TEST(CellGrid, VisitsEveryPointOfTheBallOnce) {
+TEST(CellGrid, VisitsThePointsOfTheBallOnce) {
   const std::vector<Vec3f> points = randomPoints(3000, 2.0f);
   const CellGrid grid = gridOf(points, 0.25f, 1);
   for (int q = 0; q < 60; ++q) {
@@ -31,14 +32,13 @@ TEST(CellGrid, VisitsEveryPointOfTheBallOnce) {
     const Vec3f centre = 2.2f * test::randomVector(random);
     const float radius = 0.6f * random.uniform();
     std::multiset<std::uint32_t> visited;
-    grid.forEachNear(centre, radius, [&](std::uint32_t i) { visited.insert(i); });
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-      const std::size_t count = visited.count(i);
-      const Vec3f offset = (points[i] - centre).cwiseAbs();
-      EXPECT_GE(count, offset.norm() <= radius ? 1u : 0u) << "query " << q << " point " << i;
-      // A cell that the ball's box touches reaches at most its own size beyond it.
-      EXPECT_LE(count, offset.maxCoeff() > radius + 0.2501f ? 0u : 1u) << "query " << q << " point " << i;
-    }
+    grid.forEachNear(centre, radius, [&](std::uint32_t i, float distanceSquared) {
+      visited.insert(i);
+      EXPECT_EQ(distanceSquared, (points[i] - centre).squaredNorm()) << "query " << q << " point " << i;
+    });
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+      EXPECT_EQ(visited.count(i), (points[i] - centre).squaredNorm() < radius * radius ? 1u : 0u)
+          << "query " << q << " point " << i;
   }
 }
 
@@ -51,13 +51,15 @@ TEST(CellGrid, AnyNearAnswersAsBruteForce) {
     Random random(6, 0, static_cast<std::uint64_t>(q));
     const Vec3f centre = 1.2f * test::randomVector(random);
     const float radius = 0.2f * random.uniform();
-    const auto matches = [&](std::uint32_t i) {
-      return i % 2 == 0 && (points[i] - centre).squaredNorm() < radius * radius;
-    };
-    bool expected = false;
-    for (std::uint32_t i = 0; i < points.size(); ++i) expected |= matches(i);
-    yes += expected;
-    EXPECT_EQ(grid.anyNear(centre, radius, matches), expected) << "query " << q;
+    bool any = false, even = false;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+      const bool near = (points[i] - centre).squaredNorm() < radius * radius;
+      any |= near;
+      even |= near && i % 2 == 0;
+    }
+    yes += even;
+    EXPECT_EQ(grid.anyNear(centre, radius), any) << "query " << q;
+    EXPECT_EQ(grid.anyNear(centre, radius, [](std::uint32_t i, float) { return i % 2 == 0; }), even) << "query " << q;
   }
   EXPECT_GT(yes, queries / 10);
   EXPECT_LT(yes, queries * 9 / 10);
@@ -70,11 +72,25 @@ TEST(CellGrid, GrowsWithoutLosingAPoint) {
   for (std::uint32_t i = 0; i < 10000; ++i) grid.insert(i, place(i));
   for (std::uint32_t i = 0; i < 10000; ++i) {
     int found = 0;
-    grid.forEachNear(place(i), 0.25f, [&](std::uint32_t j) {
+    grid.forEachNear(place(i), 0.25f, [&](std::uint32_t j, float) {
       ++found;
       EXPECT_EQ(j, i);
     });
     ASSERT_EQ(found, 1) << i;
+  }
+}
+
+// Three points in one cell, taken out first, last and in the middle of its list; the others stay.
+TEST(CellGrid, RemovedPointsAreNotVisited) {
+  const std::vector<Vec3f> points = {{0.1f, 0.1f, 0.1f}, {0.2f, 0.1f, 0.1f}, {0.3f, 0.1f, 0.1f}, {1.2f, 0.1f, 0.1f}};
+  for (std::uint32_t gone = 0; gone < 3; ++gone) {
+    CellGrid grid = gridOf(points, 1.0f, points.size());
+    grid.remove(gone, points[gone]);
+    std::set<std::uint32_t> visited, expected = {0, 1, 2, 3};
+    expected.erase(gone);
+    grid.forEachNear(points[0], 2.0f, [&](std::uint32_t i, float) { visited.insert(i); });
+    EXPECT_EQ(visited, expected);
+    EXPECT_THROW(grid.remove(gone, points[gone]), BugError);
   }
 }
 

@@ -268,7 +268,7 @@ TEST(KeepSpacing, DoesNotTouchStillParticles) {
 // there.
 TEST(KeepSpacing, FillsGapsWithTheNearestChart) {
   const Exemplar exemplar = discsExemplar();
-  TextureParticles particles = hexagons(1.8f);
+  TextureParticles particles = hexagons(2.0f);  // places up to 1.15 texels from all of them
   for (std::size_t i = 0; i < particles.size(); ++i) {
     particles.colour[i] = exemplar.sample(0, particles.st[i]);
     particles.age[i] = 5.0f;

@@ -88,10 +88,8 @@ class HoleCounter {
   template <class F>
   void eachReached(std::size_t place, const F& f) const {
     const SurfacePlace& centre = holes_[place];
-    grid_.forEachNear(centre.position, reachWorld_, [&](std::uint32_t i) {
-      if ((holes_[i].position - centre.position).squaredNorm() < reachWorld_ * reachWorld_ &&
-          holes_[i].normal.dot(centre.normal) > 0.2f)
-        f(i);
+    grid_.forEachNear(centre.position, reachWorld_, [&](std::uint32_t i, float) {
+      if (holes_[i].normal.dot(centre.normal) > 0.2f) f(i);
     });
   }
 
@@ -142,7 +140,7 @@ void keepSeen(const Coverage& coverage, const PatchLayers& layers, std::vector<D
     patch.seen.clear();
     const std::size_t first = layers.firstCell(static_cast<std::uint32_t>(i));
     for (std::size_t k = 0; k < patch.cells.size(); ++k)
-      if (coverage.cells[first + k]) patch.seen.push_back(patch.cells[k].cell);
+      if (coverage.cells[first + k]) patch.seen.push_back({patch.cells[k].cell, patch.cells[k].opacity});
     if (kept != i) patches[kept] = std::move(patch);
     ++kept;
   }

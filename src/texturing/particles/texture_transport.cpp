@@ -93,32 +93,46 @@ void applyOrder(const std::vector<std::uint32_t>& order, TextureParticles& parti
   fates.swap(sorted);
 }
 
-/// Particles that stay when crowded ones are removed: still ones first, then in the order of the arrays.
-std::vector<std::uint32_t> uncrowded(const TextureParticles& particles, const std::vector<ParticleFate>& fates,
-                                     float texelWorld) {
+/// Removes crowded particles from the grid: still ones stay, then the first in the order of the arrays.
+/// @return per particle, 1 if it was removed
+std::vector<std::uint8_t> thinOut(const TextureParticles& particles, const std::vector<ParticleFate>& fates, float texelWorld,
+                                  CellGrid& grid) {
   const float radius = crowdedTexels * texelWorld;
   const auto crowds = [&](std::uint32_t j, std::size_t i) {
-    return j != i && (particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
-           particles.normal[j].dot(particles.normal[i]) > 0.0f;
+    return j != i && particles.normal[j].dot(particles.normal[i]) > 0.0f;
   };
-  CellGrid all(texelWorld, particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) all.insert(static_cast<std::uint32_t>(i), particles.position[i]);
   // Few have another near them at all; only among these it matters who comes first.
   std::vector<std::uint8_t> contested(particles.size());
   parallelFor(particles.size(), 1024, [&](std::size_t i) {
     contested[i] = fates[i] != ParticleFate::still &&
-                   all.anyNear(particles.position[i], radius, [&](std::uint32_t j) { return crowds(j, i); });
+                   grid.anyNear(particles.position[i], radius, [&](std::uint32_t j, float) { return crowds(j, i); });
   });
   std::vector<std::uint8_t> removed(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i)
-    removed[i] = contested[i] && all.anyNear(particles.position[i], radius, [&](std::uint32_t j) {
+    removed[i] = contested[i] && grid.anyNear(particles.position[i], radius, [&](std::uint32_t j, float) {
       const bool first = fates[j] == ParticleFate::still || j < i;
       return first && !removed[j] && crowds(j, i);
     });
-  std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < particles.size(); ++i)
-    if (!removed[i]) kept.push_back(static_cast<std::uint32_t>(i));
-  return kept;
+    if (removed[i]) grid.remove(static_cast<std::uint32_t>(i), particles.position[i]);
+  return removed;
+}
+
+/// Sorts the particles that stay by cell.
+void sortByCell(float texelWorld, const std::vector<std::uint8_t>& removed, TextureParticles& particles,
+                std::vector<ParticleFate>& fates) {
+  std::vector<std::uint64_t> keys(particles.size());
+  parallelFor(keys.size(), 4096,
+              [&](std::size_t i) { keys[i] = CellGrid::mortonKey(particles.position[i], 4.0f * texelWorld); });
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;
+  sorted.reserve(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    if (!removed[i]) sorted.emplace_back(keys[i], static_cast<std::uint32_t>(i));
+  if (sorted.size() == keys.size() && std::is_sorted(sorted.begin(), sorted.end())) return;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> order(sorted.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = sorted[i].second;
+  applyOrder(order, particles, fates);
 }
 
 /// The particle of the grid nearest to a place, of those within `radiusWorld` that face about the same way; ties by index.
@@ -126,8 +140,7 @@ bool nearestOf(const CellGrid& grid, const TextureParticles& particles, const Ve
                std::uint32_t& nearest) {
   float least = radiusWorld * radiusWorld;
   bool found = false;
-  grid.forEachNear(p, radiusWorld, [&](std::uint32_t j) {
-    const float distance = (particles.position[j] - p).squaredNorm();
+  grid.forEachNear(p, radiusWorld, [&](std::uint32_t j, float distance) {
     if (distance > least || particles.normal[j].dot(n) < 0.2f || (found && distance == least && j > nearest)) return;
     least = distance;
     nearest = j;
@@ -189,12 +202,10 @@ std::vector<ParticleFate> carryParticles(const FluidFrame& from, const FluidFram
 
 void keepSpacing(const FluidFrame& frame, const Exemplar& exemplar, float texelWorld, std::uint64_t seed,
                  TextureParticles& particles, std::vector<ParticleFate>& fates) {
-  const std::vector<std::uint32_t> kept = uncrowded(particles, fates, texelWorld);
-  if (kept.size() != particles.size()) applyOrder(kept, particles, fates);
-
   CellGrid grid(gapTexels * texelWorld, particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), particles.position[i]);
-  const SurfaceSamples gaps = findGaps(frame.mesh, particles.position, particles.normal, grid, gapTexels * texelWorld,
+  std::vector<std::uint8_t> removed = thinOut(particles, fates, texelWorld, grid);
+  const SurfaceSamples gaps = findGaps(frame.mesh, particles.normal, grid, gapTexels * texelWorld,
                                        refillTexels * texelWorld, seed);
   if (gaps.size() > 0) {
     const std::size_t oldCount = particles.size();
@@ -208,14 +219,8 @@ void keepSpacing(const FluidFrame& frame, const Exemplar& exemplar, float texelW
     });
   }
 
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(particles.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    keys[i] = {CellGrid::mortonKey(particles.position[i], 4.0f * texelWorld), static_cast<std::uint32_t>(i)};
-  if (std::is_sorted(keys.begin(), keys.end())) return;
-  std::sort(keys.begin(), keys.end());
-  std::vector<std::uint32_t> order(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) order[i] = keys[i].second;
-  applyOrder(order, particles, fates);
+  removed.resize(particles.size(), 0);
+  sortByCell(texelWorld, removed, particles, fates);
 }
 
 void boxProjection(const Vec3f& pWorld, const Vec3f& normal, const Vec3f& orientation, float texelWorld, Vec2f& st,

@@ -36,9 +36,8 @@ std::vector<std::uint8_t> wornRegion(const TextureParticles& particles, const st
   // A few of the worn points stand for all of them.
   CellGrid seeds(reachWorld, 1024);
   const auto seedWithin = [&](std::size_t i, float radius) {
-    return seeds.anyNear(particles.position[i], radius, [&](std::uint32_t j) {
-      return (particles.position[j] - particles.position[i]).squaredNorm() < radius * radius &&
-             particles.normal[j].dot(particles.normal[i]) > 0.0f;
+    return seeds.anyNear(particles.position[i], radius, [&](std::uint32_t j, float) {
+      return particles.normal[j].dot(particles.normal[i]) > 0.0f;
     });
   };
   for (std::size_t i = 0; i < wear.size(); ++i)

@@ -46,9 +46,8 @@ void WindowSet::chooseCentres(const OrientedPoints& points, float spacingWorld,
   windowOfPoint_.assign(points.positions.size(), none);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     if (!active.empty() && !active[i]) continue;
-    const bool near = grid.anyNear(points.positions[i], spacingWorld, [&](std::uint32_t j) {
-      return (points.positions[j] - points.positions[i]).squaredNorm() < spacingWorld * spacingWorld &&
-             points.normals[j].dot(points.normals[i]) > 0.5f;
+    const bool near = grid.anyNear(points.positions[i], spacingWorld, [&](std::uint32_t j, float) {
+      return points.normals[j].dot(points.normals[i]) > 0.5f;
     });
     if (near) continue;
     grid.insert(static_cast<std::uint32_t>(i), points.positions[i]);
