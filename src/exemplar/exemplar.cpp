@@ -83,15 +83,17 @@ void Exemplar::placeTiles() {
 }
 
 void Exemplar::measure() {
-  Eigen::Array4d mean = Eigen::Array4d::Zero(), square = Eigen::Array4d::Zero();
+  Eigen::Array4d mean = Eigen::Array4d::Zero(), square = Eigen::Array4d::Zero(), shown = Eigen::Array4d::Zero();
   double n = 0.0;
   for (const Tile& tile : tiles_) {
     for (const Texel& t : tile.texels.texels(0)) {
       mean += t.cast<double>();
       square += t.cast<double>().square();
     }
+    for (const Texel& t : (tile.colour ? *tile.colour : tile.texels).texels(0)) shown += t.cast<double>();
     n += static_cast<double>(tile.texels.texels(0).size());
   }
+  meanShown_ = (shown / n).cast<float>();
   const Eigen::Array4d variance = (square / n - (mean / n).square()).max(0.0);
   contrast_ = static_cast<float>(std::sqrt(space_.isPlain() ? variance.head<3>().mean() : variance.sum() / 3.0));
 }

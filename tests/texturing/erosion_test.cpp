@@ -88,7 +88,7 @@ class PatchOnSlab : public ::testing::Test {
         exemplar_(64, 64, test::texelsOf(64, test::discs)),
         features_(exemplar_, FeatureSource::distance),
         plan_{.texelWorld = 0.01f, .radiusWorld = 0.3f, .maxDistortion = 3.0f, .randomOrientation = false, .seed = 1},
-        erosion_(features_, nullptr, plan_.radiusWorld, plan_.texelWorld, 0.1f, 0.0f) {}
+        erosion_(features_, nullptr, plan_.radiusWorld, plan_.texelWorld, 0.1f, 0.0f, 1.0f) {}
 
   SurfacePlace top(float x, float y) const {
     const TriangleMesh& mesh = frame_->mesh;
@@ -129,10 +129,10 @@ TEST_F(PatchOnSlab, LiesIsometricallyAndNotMirrored) {
   EXPECT_TRUE(exemplar_.holds(patch.centreSt));
   EXPECT_TRUE(patch.seen.empty());
   const FeatureCells cells(exemplar_, features_);
-  const PatchErosion byFeature(features_, &cells, plan_.radiusWorld, plan_.texelWorld, 0.1f, 0.0f);
+  const PatchErosion byFeature(features_, &cells, plan_.radiusWorld, plan_.texelWorld, 0.1f, 0.0f, 1.0f);
   const DeformablePatch whole =
       PatchMaker(*frame_, frame_->mesh, SurfaceRim(frame_->mesh), exemplar_, byFeature, plan_).make(top(0.0f, 0.0f), 0);
-  EXPECT_EQ(whole.seen, std::vector<std::uint32_t>{cells.at(0, whole.centreSt)});
+  EXPECT_EQ(whole.seen, (std::vector<SeenCell>{{cells.at(0, whole.centreSt), 0.0f}}));
 }
 
 TEST_F(PatchOnSlab, RestsWithTheFluidAndMovesWithIt) {
@@ -166,7 +166,7 @@ TEST_F(PatchOnSlab, SavedAndLoadedIsTheSame) {
   const test::Folder folder;
   std::vector<DeformablePatch> patches = {made(0.0f, 0.0f, 3), made(0.3f, 0.1f, 5)};
   patches[1].age = 4.0f;
-  patches[1].seen = {1, 7};
+  patches[1].seen = {{1, 1.0f}, {7, 0.5f}};
   StateWriter writer;
   savePatches(patches, writer);
   writer.write(folder / "state", "test");
@@ -185,7 +185,7 @@ TEST_F(PatchOnSlab, SavedAndLoadedIsTheSame) {
 TEST(PatchErosion, FollowsTheCriterion) {
   const Exemplar exemplar(64, 64, test::texelsOf(64, test::constantTexel));
   const FeatureMap features(exemplar, FeatureSource::distance);
-  const PatchErosion erosion(features, nullptr, radius, 0.02f, 0.1f, 0.0f);
+  const PatchErosion erosion(features, nullptr, radius, 0.02f, 0.1f, 0.0f, 1.0f);
   PatchIdentity patch;
   patch.centreSt = Vec2f(32.0f, 32.0f);
   patch.largestTerm = erosion.largestTerm(patch);
@@ -202,7 +202,7 @@ TEST(PatchErosion, FollowsTheCriterion) {
 TEST(PatchErosion, FadesWithItsMargin) {
   const Exemplar exemplar(64, 64, test::texelsOf(64, test::constantTexel));
   const FeatureMap features(exemplar, FeatureSource::distance);
-  const PatchErosion hard(features, nullptr, radius, 0.02f, 0.1f, 0.0f), soft(features, nullptr, radius, 0.02f, 0.1f, 0.2f);
+  const PatchErosion hard(features, nullptr, radius, 0.02f, 0.1f, 0.0f, 1.0f), soft(features, nullptr, radius, 0.02f, 0.1f, 0.2f, 1.0f);
   PatchIdentity patch;
   patch.centreSt = Vec2f(32.0f, 32.0f);
   patch.largestTerm = hard.largestTerm(patch);
@@ -221,7 +221,7 @@ class WholeFeatures : public ::testing::Test {
       : exemplar_({test::discGrid(96, 24, 8.0f)}),
         features_(exemplar_, FeatureSource::distance),
         cells_(exemplar_, features_),
-        erosion_(features_, &cells_, radius, 0.0125f, 0.1f, 0.0f),
+        erosion_(features_, &cells_, radius, 0.0125f, 0.1f, 0.0f, 1.0f),
         patch_(flatPatch(40)) {
     patch_.centreSt = erosion_.centreNear(0, Vec2f(36.0f, 60.0f));
     patch_.largestTerm = erosion_.largestTerm(patch_);
@@ -232,7 +232,7 @@ class WholeFeatures : public ::testing::Test {
     patch_.position = fresh.position;
     for (Vec3f& p : patch_.position) p.x() *= stretch;
     measure(radius, 3.0f, patch_);
-    erosion_.judge(patch_);
+    erosion_.judge(patch_, 1);
   }
 
   Exemplar exemplar_;
@@ -272,18 +272,41 @@ TEST_F(WholeFeatures, HiddenOnesDoNotComeOutDistorted) {
   EXPECT_GE(margin(Vec2f::Zero()), 0.0f);
   judgeStretched(1.6f);  // quality 0.7
   EXPECT_LT(margin(Vec2f::Zero()), 0.0f) << "it was not seen";
-  patch_.seen = {cells_.at(0, patch_.centreSt)};
+  patch_.seen = {{cells_.at(0, patch_.centreSt), 1.0f}};
   judgeStretched(1.6f);
   EXPECT_GE(margin(Vec2f::Zero()), 0.0f) << "it was seen and is good enough to stay";
 }
 
+// The one in the middle, drawn out to five times its length: it is gone after as many frames as it fades over, one that was not
+// seen is gone at once.
+TEST_F(WholeFeatures, FadeOverSomeFramesWhenTheyGo) {
+  const std::uint32_t middle = cells_.at(0, patch_.centreSt);
+  const PatchErosion slow(features_, &cells_, radius, 0.0125f, 0.1f, 0.0f, 4.0f);
+  patch_.position = flatPatch(40).position;
+  for (Vec3f& p : patch_.position) p.x() *= 5.0f;
+  measure(radius, 3.0f, patch_);
+  const auto opacity = [&] {
+    return std::find_if(patch_.cells.begin(), patch_.cells.end(), [&](const KeptCell& c) { return c.cell == middle; })->opacity;
+  };
+  slow.judge(patch_, 1);
+  EXPECT_EQ(opacity(), 0.0f);
+  patch_.seen = {{middle, 1.0f}};
+  for (const float expected : {0.75f, 0.5f, 0.25f, 0.0f}) {
+    slow.judge(patch_, 1);
+    EXPECT_FLOAT_EQ(opacity(), expected);
+    patch_.seen = {{middle, opacity()}};
+    slow.judge(patch_, 0);
+    EXPECT_FLOAT_EQ(opacity(), expected) << "the same frame again";
+  }
+}
+
 // A feature of which a third is drawn out to twenty times its length is mostly that third, to who looks at it.
 TEST_F(WholeFeatures, AreJudgedByTheirAreaOnTheSurface) {
-  patch_.seen = {cells_.at(0, patch_.centreSt)};
+  patch_.seen = {{cells_.at(0, patch_.centreSt), 1.0f}};
   patch_.position = flatPatch(40).position;
   for (Vec3f& p : patch_.position) p.x() += 19.0f * std::clamp(p.x(), -0.03f, 0.03f);
   measure(radius, 3.0f, patch_);
-  erosion_.judge(patch_);
+  erosion_.judge(patch_, 1);
   EXPECT_LT(margin(Vec2f(-0.06f, 0.0f)), 0.0f) << "beside it, where nothing is drawn out";
 }
 

@@ -156,7 +156,8 @@ bool noteEnds(const SurfaceRim& rim, DeformablePatch& patch) {
 
 void savePatches(const std::vector<DeformablePatch>& patches, StateWriter& writer) {
   std::vector<PatchIdentity> identities;
-  std::vector<std::uint32_t> vertexCounts, triangleCounts, seenCounts, seen;
+  std::vector<std::uint32_t> vertexCounts, triangleCounts, seenCounts;
+  std::vector<SeenCell> seen;
   std::vector<Vec3f> position;
   std::vector<Vec2f> rest;
   std::vector<unsigned char> atEnd;
@@ -187,8 +188,8 @@ std::vector<DeformablePatch> loadPatches(const StateReader& reader) {
   const auto identities = reader.array<PatchIdentity>("patch");
   const auto vertexCounts = reader.array<std::uint32_t>("vertexCount");
   const auto triangleCounts = reader.array<std::uint32_t>("triangleCount");
-  const auto seenCounts = reader.array<std::uint32_t>("seenCount"),
-             seen = reader.array<std::uint32_t>("seen");
+  const auto seenCounts = reader.array<std::uint32_t>("seenCount");
+  const auto seen = reader.array<SeenCell>("seen");
   const auto position = reader.array<Vec3f>("position");
   const auto rest = reader.array<Vec2f>("rest");
   const auto atEnd = reader.array<unsigned char>("atEnd");

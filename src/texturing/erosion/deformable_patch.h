@@ -29,6 +29,13 @@ struct KeptCell : Keeping {
   std::uint32_t cell;  ///< of FeatureCells
 };
 
+/// A feature on a patch that was seen in the last frame, of a new patch one that is to be.
+struct SeenCell {
+  std::uint32_t cell;
+  float opacity;  ///< it had
+  bool operator==(const SeenCell&) const = default;
+};
+
 /// A deformable lapped patch [Gagnon 2021, sec. 4]: an open triangle mesh that was copied from the surface,
 /// flattened once, and rides on the flow vertex by vertex. A place of it shows the exemplar at centreSt +
 /// rest / texelWorld.
@@ -37,8 +44,7 @@ struct DeformablePatch : PatchIdentity {
   std::vector<Vec2f> rest;           ///< flattened, metres from the centre, in the exemplar's axes (v down)
   std::vector<Vec3i> triangles;      ///< counter-clockwise from outside
   std::vector<unsigned char> atEnd;  ///< per vertex, 1 where the surface itself ends: no rim of the patch
-  std::vector<std::uint32_t>
-      seen;  ///< cells of it that were seen in the last frame, of a new one that are to be, ascending
+  std::vector<SeenCell> seen;        ///< ascending by cell
 
   /// Of the present shape; see `measure`.
   std::vector<float> area;     ///< per vertex, square metres, twice those of the triangles around

@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <limits>
 
+#include "texturing/blended_contrast.h"
 #include "texturing/exemplar_at_hit.h"
 
 namespace ebru {
 
 PatchTexture::PatchTexture(std::shared_ptr<const Exemplar> exemplarToShow, FeatureMap featureMap,
-                           bool wholeFeatures, float radiusWorld, float texel, float epsilon, float softness,
-                           Showing show)
+                           bool wholeFeatures, float radiusWorld, float texel, const ErosionOptions& options)
     : exemplar(std::move(exemplarToShow)),
       features(std::move(featureMap)),
       cells(wholeFeatures ? std::optional<FeatureCells>(std::in_place, *exemplar, features) : std::nullopt),
-      erosion(features, cells ? &*cells : nullptr, radiusWorld, texel, epsilon, softness),
+      erosion(features, cells ? &*cells : nullptr, radiusWorld, texel, static_cast<float>(options.epsilon),
+              static_cast<float>(options.softness), static_cast<float>(options.fade_frames)),
       texelWorld(texel),
-      showing(show) {}
+      showing(options.fade == "alpha" ? Showing::blended : Showing::oldest) {}
 
 TextureMaps ErosionField::maps() const {
   return mapsOf(*texture_->exemplar);
@@ -25,7 +26,7 @@ TextureSample ErosionField::lookup(const SurfacePoint& point) const {
   return texture_->showing == Showing::oldest ? oldest(point) : blended(point);
 }
 
-/// Colours of layers, one over the other.
+/// Colours of layers, by their weights.
 class ErosionField::Blend {
  public:
   Blend(const ErosionField& field, float footprintWorld) : field_(field), footprintWorld_(footprintWorld) {}
@@ -35,7 +36,8 @@ class ErosionField::Blend {
     const Exemplar& exemplar = *texture.exemplar;
     const Vec2f place = field_.layers_->identity(layer.patch).centreSt + layer.rest / texture.texelWorld;
     const float width = footprintWorld_ * layer.restPerWorld / texture.texelWorld;
-    sum_ += weight * exemplar.sampleFiltered(place, width);
+    sum_ += weight * (exemplar.sampleFiltered(place, width) - exemplar.meanShown());
+    squares_ += weight * weight;
     if (exemplar.hasOtherMaps()) exemplar.addOtherMaps(place, width, weight, others_);
     weights_ += weight;
     if (weight > largest_) {
@@ -48,7 +50,11 @@ class ErosionField::Blend {
     TextureSample sample;
     if (weights_ == 0.0f) return sample;
     for (Texel& other : others_) other /= weights_;
-    take(field_.texture_->exemplar->decode(sum_ / weights_, others_), sample);
+    const Exemplar& exemplar = *field_.texture_->exemplar;
+    // The predecessor's blend is the plain mean.
+    const float correlation = field_.texture_->showing == Showing::blended ? 1.0f : 0.0f;
+    const float contrast = blendedContrast(squares_ / (weights_ * weights_), correlation);
+    take(exemplar.decode(exemplar.meanShown() + sum_ / (weights_ * contrast), others_), sample);
     field_.describe(strongest_, sample);
     return sample;
   }
@@ -59,7 +65,7 @@ class ErosionField::Blend {
   float footprintWorld_;
   Texel sum_ = Texel::Zero();
   OtherMaps others_ = noOtherMaps;
-  float weights_ = 0.0f, largest_ = 0.0f;
+  float weights_ = 0.0f, squares_ = 0.0f, largest_ = 0.0f;
   PatchLayers::Layer strongest_{};
 };
 

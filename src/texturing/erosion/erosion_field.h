@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "exemplar/exemplar.h"
+#include "texturing/erosion/erosion_options.h"
 #include "texturing/erosion/patch_coverage.h"
 #include "texturing/erosion/patch_layers.h"
 #include "texturing/texture_field.h"
@@ -21,7 +22,7 @@ struct PatchTexture {
 
   /// @param wholeFeatures  whether features are eroded as a whole
   PatchTexture(std::shared_ptr<const Exemplar> exemplar, FeatureMap features, bool wholeFeatures,
-               float radiusWorld, float texelWorld, float epsilon, float softness, Showing showing);
+               float radiusWorld, float texelWorld, const ErosionOptions& options);
   PatchTexture(const PatchTexture&) = delete;
   PatchTexture& operator=(const PatchTexture&) = delete;
 };

@@ -58,10 +58,6 @@ class ErosionMethod : public TextureMethod {
 
  private:
   Showing showing() const { return texture_->showing; }
-  void judge(DeformablePatch& patch) const {
-    measure(plan_.radiusWorld, plan_.maxDistortion, patch);
-    texture_->erosion.judge(patch);
-  }
   void carryAll(const FluidFrame& from, const FluidFrame& to, const SurfaceRim& rim);
   /// Drops patches that are not seen and covers what has no texture.
   void coverFrame(const FluidFrame& frame, const SurfaceRim& rim);
@@ -94,8 +90,7 @@ ErosionMethod::ErosionMethod(const TextureOptions& options, std::uint64_t seed, 
   plan_.seed = seed;
   texture_ = std::make_shared<const PatchTexture>(
       exemplar, featureMapOf(*exemplar, options_), options_.unit == "feature", plan_.radiusWorld,
-      plan_.texelWorld, static_cast<float>(options_.epsilon), static_cast<float>(options_.softness),
-      options_.fade == "alpha" ? Showing::blended : Showing::oldest);
+      plan_.texelWorld, options_);
 }
 
 void ErosionMethod::start(const FluidFrame& first) {
@@ -122,7 +117,10 @@ void ErosionMethod::carryAll(const FluidFrame& from, const FluidFrame& to, const
     patch.presence = std::min(1.0f, patch.presence + 1.0f / fadeInFrames);
     const bool moved = carry(flow, to, plan_.radiusWorld, patch);
     if (moved) patch.age += 1.0f;
-    if (noteEnds(rim, patch) || moved) judge(patch);
+    const bool reshaped = noteEnds(rim, patch) || moved;
+    if (reshaped) measure(plan_.radiusWorld, plan_.maxDistortion, patch);
+    const auto fades = [](const KeptCell& cell) { return cell.opacity > 0.0f && cell.opacity < 1.0f; };
+    if (reshaped || std::any_of(patch.cells.begin(), patch.cells.end(), fades)) texture_->erosion.judge(patch, 1);
   });
 }
 
@@ -221,7 +219,7 @@ void ErosionMethod::checkCount(const FluidFrame& frame, std::size_t count) const
 void ErosionMethod::publish() {
   const PhaseTimer timer(times_, "index");
   // By what is seen in this frame, as after loading its state.
-  parallelFor(patches_.size(), 16, [&](std::size_t i) { texture_->erosion.judge(patches_[i]); });
+  parallelFor(patches_.size(), 16, [&](std::size_t i) { texture_->erosion.judge(patches_[i], 0); });
   field_ = std::make_shared<const ErosionField>(texture_, std::make_shared<const PatchLayers>(patches_));
 }
 

@@ -29,6 +29,12 @@ OptionFields fields(ErosionOptions& o) {
                "as in the paper: it goes at once",
        .lower = 0.0,
        .upper = 1.0},
+      {.key = "fade_frames",
+       .target = &o.fade_frames,
+       .unit = "frames",
+       .help = "over which a whole feature that goes fades, riding on the flow; 1, as in the paper: it goes at once",
+       .lower = 1.0,
+       .upper = 100.0},
       {.key = "feature_map",
        .target = &o.feature_map,
        .help = "what is eroded last: the exemplar's heights, its opacity, what is far from the edges in its "

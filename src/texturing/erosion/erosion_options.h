@@ -12,7 +12,8 @@ struct ErosionOptions {
   double radius = 0.0;
   double max_distortion = 3.0;
   double epsilon = 0.1;
-  double softness = 0.1;
+  double softness = 0.0;
+  double fade_frames = 4.0;
   std::string feature_map = "auto";
   std::vector<std::string> feature_image;
   std::string unit = "feature";

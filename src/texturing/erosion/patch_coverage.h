@@ -35,7 +35,7 @@ constexpr float placesPerTexel = 1.0f;
 Coverage coverageOfSurface(const TriangleMesh& mesh, float texelWorld, const PatchLayers& layers,
                            const PatchErosion& erosion, Showing showing);
 
-/// Drops patches that are not seen, and notes with the others which of their cells are.
+/// Drops patches that are not seen, and notes with the others which of their cells are, and how opaque.
 /// @param patches  those that `layers` was made from
 void keepSeen(const Coverage& coverage, const PatchLayers& layers, std::vector<DeformablePatch>& patches);
 

@@ -10,7 +10,7 @@ constexpr float freshQuality = 0.8f;
 
 }  // namespace
 
-void PatchErosion::judge(DeformablePatch& patch) const {
+void PatchErosion::judge(DeformablePatch& patch, int framesLater) const {
   patch.cells.clear();
   if (!cells_) return;
   struct Part {
@@ -43,13 +43,21 @@ void PatchErosion::judge(DeformablePatch& patch) const {
     }
     const std::uint32_t cell = parts[i].cell;
     quality = area > 0.0f ? quality / area : 0.0f;
-    const bool hidden = !std::binary_search(patch.seen.begin(), patch.seen.end(), cell);
+    const auto seen = std::lower_bound(patch.seen.begin(), patch.seen.end(), cell,
+                                       [](const SeenCell& s, std::uint32_t wanted) { return s.cell < wanted; });
+    const bool hidden = seen == patch.seen.end() || seen->cell != cell;
     Keeping kept = keeping(cellTerm(patch, cell), patch, quality);
     if (cut || (hidden && quality < freshQuality)) kept = {-1.0f, 0.0f};
+    if (!hidden) kept.opacity = std::max(kept.opacity, faded(seen->opacity, framesLater));
     if (cut && divisible(patch, cell)) kept.margin = std::numeric_limits<float>::quiet_NaN();
     patch.cells.push_back({kept, cell});
     i = end;
   }
+}
+
+float PatchErosion::faded(float opacity, int framesLater) const {
+  const float left = opacity - static_cast<float>(framesLater) * fadeStep_;
+  return left < 0.5f * fadeStep_ && framesLater > 0 ? 0.0f : left;
 }
 
 bool PatchErosion::divisible(const PatchIdentity& patch, std::uint32_t cell) const {

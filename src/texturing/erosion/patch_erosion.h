@@ -17,21 +17,24 @@ namespace ebru {
 /// hold many, and the one in the middle: their places are judged one by one, as are those of cells smaller
 /// than the triangles. A feature that was hidden in the frame before comes out only while it is hardly
 /// distorted: else it would go again soon. What lies beyond the exemplar's image is eroded. Texture fades
-/// over the last part of its margin, so that what takes its place does not jump at the eye. The fade follows
-/// the distortion: where the fluid stops it stops. Refers to the maps. Const members are safe to call
-/// concurrently.
+/// over the last part of its margin, so that what takes its place does not jump at the eye. This fade follows
+/// the distortion: where the fluid stops it stops. Whole features that were seen fade over some frames
+/// besides, however fast they are being distorted: their opacity falls by a share of 1 per frame at most. Refers to the maps.
+/// Const members are safe to call concurrently.
 class PatchErosion {
  public:
   /// @param cells  null: places are eroded one by one, as in the paper
   /// @param softness  width of the margin over which texture fades before it is eroded; 0 in the paper
+  /// @param fadeFrames  frames over which a whole feature that goes fades; up to 1: at once, as in the paper
   PatchErosion(const FeatureMap& features, const FeatureCells* cells, float radiusWorld, float texelWorld,
-               float epsilon, float softness)
+               float epsilon, float softness, float fadeFrames)
       : features_(features),
         cells_(cells),
         radiusWorld_(radiusWorld),
         texelWorld_(texelWorld),
         epsilon_(epsilon),
-        softness_(softness) {}
+        softness_(softness),
+        fadeStep_(1.0f / std::max(1.0f, fadeFrames)) {}
 
   /// Whether the exemplar has something for a place. @param rest  as in DeformablePatch
   bool inImage(const PatchIdentity& patch, const Vec2f& rest) const {
@@ -67,7 +70,8 @@ class PatchErosion {
   }
 
   /// Fills `cells` of a measured patch.
-  void judge(DeformablePatch& patch) const;
+  /// @param framesLater  than the frame of `seen`: 0 or 1
+  void judge(DeformablePatch& patch, int framesLater) const;
 
   /// Where a patch's centre best lies in the exemplar, near `st`: in the middle of a feature.
   Vec2f centreNear(int tile, const Vec2f& st) const {
@@ -75,9 +79,9 @@ class PatchErosion {
   }
 
   /// The cells that a new patch is to show: that of its centre, however hard it is to flatten there.
-  std::vector<std::uint32_t> cellsToShow(const PatchIdentity& patch) const {
+  std::vector<SeenCell> cellsToShow(const PatchIdentity& patch) const {
     if (!cells_) return {};
-    return {cells_->at(patch.tile, patch.centreSt)};
+    return {{cells_->at(patch.tile, patch.centreSt), 0.0f}};
   }
 
   /// The maximum of sqrt(F + D) over a patch with that centre.
@@ -103,12 +107,14 @@ class PatchErosion {
   float cellTerm(const PatchIdentity& patch, std::uint32_t cell) const {
     return cells_->importance(cell) + nearnessOf((cells_->centre(cell) - patch.centreSt) * texelWorld_);
   }
+  /// The least opacity of a feature that had one before.
+  float faded(float opacity, int framesLater) const;
   /// Whether a cell that the rim cuts may be eroded in part.
   bool divisible(const PatchIdentity& patch, std::uint32_t cell) const;
 
   const FeatureMap& features_;
   const FeatureCells* cells_;
-  float radiusWorld_, texelWorld_, epsilon_, softness_;
+  float radiusWorld_, texelWorld_, epsilon_, softness_, fadeStep_;
 };
 
 }  // namespace ebru

@@ -60,7 +60,7 @@ DeformablePatch PatchMaker::make(const SurfacePlace& centre, std::uint32_t id) c
   noteEnds(rim_, patch);
   measure(plan_.radiusWorld, plan_.maxDistortion, patch);
   patch.seen = erosion_.cellsToShow(patch);
-  erosion_.judge(patch);
+  erosion_.judge(patch, 0);
   return patch;
 }
 

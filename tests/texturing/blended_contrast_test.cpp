@@ -1,0 +1,35 @@
+#include "texturing/blended_contrast.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/random.h"
+
+namespace ebru {
+namespace {
+
+TEST(BlendedContrast, OneTextureOrEqualOnesKeepTheirs) {
+  EXPECT_EQ(blendedContrast(1.0f, 0.0f), 1.0f);
+  EXPECT_EQ(blendedContrast(0.5f, 1.0f), 1.0f);
+}
+
+// Noise of variance 1/12 with weights 0.5, 0.3 and 0.2; a part common to all three makes them correlated.
+TEST(BlendedContrast, IsTheStandardDeviationOfABlendOfNoise) {
+  const float weights[] = {0.5f, 0.3f, 0.2f};
+  for (const float correlation : {0.0f, 0.36f}) {
+    Random random(1, 2, 3);
+    constexpr int samples = 200000;
+    double squares = 0.0;
+    for (int n = 0; n < samples; ++n) {
+      const float common = std::sqrt(correlation) * (random.uniform() - 0.5f);
+      float blend = 0.0f;
+      for (const float w : weights) blend += w * (common + std::sqrt(1.0f - correlation) * (random.uniform() - 0.5f));
+      squares += static_cast<double>(blend) * blend;
+    }
+    EXPECT_NEAR(std::sqrt(12.0 * squares / samples), blendedContrast(0.25f + 0.09f + 0.04f, correlation), 0.005);
+  }
+}
+
+}  // namespace
+}  // namespace ebru
