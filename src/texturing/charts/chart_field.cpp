@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "texturing/blended_contrast.h"
+#include "texturing/charts/chart_links.h"
 #include "texturing/exemplar_at_hit.h"
 
 namespace ebru {
@@ -11,6 +13,34 @@ namespace {
 
 constexpr float blendTexels = 1.6f;
 constexpr std::size_t maxBlended = 16;
+constexpr float alike = 0.4f;  ///< correlation of a piece with what it replaces and was chosen to resemble
+
+/// What charts say of one place. Those that say nearly the same show one piece of the exemplar there: it is read once, at the
+/// mean of their places, which is sharper than the mean of what is read at each.
+class PlacesOfPieces {
+ public:
+  struct Piece {
+    Vec2f first, sum;
+    float weight;
+    float scale;  ///< exemplar texels per texel of surface
+    Vec2f place() const { return sum / weight; }
+  };
+
+  void add(const Vec2f& place, const Mat2f& jacobian, float weight) {
+    for (std::size_t k = 0; k < count_; ++k)
+      if (ChartLinks::samePiece(pieces_[k].first, place)) {
+        pieces_[k].sum += weight * place;
+        pieces_[k].weight += weight;
+        return;
+      }
+    pieces_[count_++] = {place, weight * place, weight, std::sqrt(std::abs(jacobian.determinant()))};
+  }
+  std::span<const Piece> pieces() const { return {pieces_.data(), count_}; }
+
+ private:
+  std::array<Piece, 2 * maxBlended> pieces_;  ///< each chart may have one that fades beside it
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -36,27 +66,32 @@ TextureSample ChartField::lookup(const SurfacePoint& point) const {
   const TextureParticles& particles = nearest_.particles();
   const float reach = blendTexels * nearest_.texelWorld();
   const float footprintTexels = point.footprintWorld / nearest_.texelWorld();
+  PlacesOfPieces places;
   Texel sum = Texel::Zero();
-  OtherMaps others = noOtherMaps;
-  float weights = 0.0f;
+  float weights = 0.0f, fading = 0.0f;
   for (std::size_t k = 0; k < count; ++k) {
     const float falloff = std::max(0.0f, 1.0f - found[k].distanceSquared / (reach * reach));
     const float weight = falloff * falloff * falloff + 1e-12f;
     const std::size_t i = found[k].index;
     const Vec2f step = localTexels(particles, i, point.position, nearest_.texelWorld());
-    const auto add = [&](const Vec2f& st, const Mat2f& jacobian, float share) {
-      const float width = footprintTexels * std::sqrt(std::abs(jacobian.determinant()));
-      const Vec2f place = st + jacobian * step;
-      sum += share * (residual_[i] + exemplar_->sampleFiltered(place, width));
-      if (exemplar_->hasOtherMaps()) exemplar_->addOtherMaps(place, width, share, others);
-    };
     const float fade = particles.fade[i];
-    add(particles.st[i], particles.jacobian[i], (1.0f - fade) * weight);
-    if (fade > 0.0f) add(particles.fadingSt[i], particles.fadingJacobian[i], fade * weight);
+    places.add(particles.st[i] + particles.jacobian[i] * step, particles.jacobian[i], (1.0f - fade) * weight);
+    if (fade > 0.0f)
+      places.add(particles.fadingSt[i] + particles.fadingJacobian[i] * step, particles.fadingJacobian[i], fade * weight);
+    sum += weight * residual_[i];
     weights += weight;
+    fading += fade * weight;
+  }
+  OtherMaps others = noOtherMaps;
+  for (const PlacesOfPieces::Piece& piece : places.pieces()) {
+    const float width = footprintTexels * piece.scale;
+    sum += piece.weight * (exemplar_->sampleFiltered(piece.place(), width) - exemplar_->meanShown());
+    if (exemplar_->hasOtherMaps()) exemplar_->addOtherMaps(piece.place(), width, piece.weight, others);
   }
   for (Texel& other : others) other /= weights;
-  take(exemplar_->decode(sum / weights, others), sample);
+  const float faded = fading / weights;
+  sum /= weights * blendedContrast(faded * faded + (1.0f - faded) * (1.0f - faded), alike);
+  take(exemplar_->decode(exemplar_->meanShown() + sum, others), sample);
   const std::size_t first = found[0].index;
   const Exemplar::Place place = exemplar_->normalised(
       particles.st[first] +

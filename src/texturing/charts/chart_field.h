@@ -11,8 +11,9 @@ namespace ebru {
 ///
 /// Each particle within 1.6 texels predicts the exemplar's maps at st + J (p - x), colour and height with what its
 /// texel differs from the exemplar at st; predictions are blended with weight (1 - d^2/r^2)^3. Where neighbours carry
-/// one chart all predictions agree and the picture has the exemplar's own resolution, filtered where a pixel is wider
-/// than a texel; where charts meet, the blend hides the particles' cells. Coordinate, id, age and distortion are the
+/// one chart all predictions agree, up to a fraction of a texel: the exemplar is read once, at the mean of the places, and the
+/// picture has the exemplar's own resolution, filtered where a pixel is wider than a texel; where charts meet, the blend hides
+/// the particles' cells. Where a replaced chart fades, contrast is kept (blendedContrast). Coordinate, id, age and distortion are the
 /// nearest particle's.
 class ChartField : public TextureField {
  public:
