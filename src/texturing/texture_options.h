@@ -11,7 +11,7 @@ namespace ebru {
 
 /// Table [texture] of the shot file.
 struct TextureOptions {
-  std::string method = "synthesis";
+  std::string method = "quilt";
   std::vector<std::string> exemplar;
   std::vector<std::string> height;
   std::vector<std::string> roughness;
