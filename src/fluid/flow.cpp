@@ -11,7 +11,7 @@ namespace {
 /// A speed no fluid has; keeps the number of sub-steps bounded whatever a source says.
 constexpr float maxSubSteps = 1024.0f;
 /// The longest sub-step, and the error of the midpoint rule from which on a sub-step is halved, in voxels. RK3 is then right to a few
-/// hundredths of a voxel at worst.
+/// hundredths of a voxel at worst: of a rotation by one radian to 0.005.
 constexpr float longestStep = 4.0f, allowedError = 0.02f;
 
 /// Ralston's, third order.
@@ -79,8 +79,7 @@ class Flow::SubSteps {
   /// Halves the sub-steps if the first one turns out too long. @param lengthWorld  of it at the greatest of its slopes
   /// @return whether it has to be made again
   bool halve(float error, float lengthWorld) {
-    const bool fine = !(error > allowedError) || lengthWorld <= voxelWorld_;
-    if ((fine && !(lengthWorld > longest())) || static_cast<float>(count_) >= maxSubSteps) return false;
+    if (!(error > allowedError || lengthWorld > longest()) || static_cast<float>(count_) >= maxSubSteps) return false;
     count_ *= 2;
     return true;
   }

@@ -18,8 +18,8 @@ class Flow {
   bool velocity(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec) const;
 
   /// RK3 (Ralston) from time 0 to 1. The sub-steps are as long as the error of the midpoint rule, which needs no other slopes than
-  /// RK3, stays below 0.02 voxels in the first of them, where they are at most 4 voxels long and need not be shorter than one. Voxel
-  /// is the smaller of the frames' surfaces'. A point whose velocity is exactly zero
+  /// RK3, stays below 0.02 voxels in the first of them, where they are at most 4 voxels long. Voxel is the smaller
+  /// of the frames' surfaces'. A point whose velocity is exactly zero
   /// comes back bit for bit, so does one whose velocity is unknown. Where it becomes unknown on the way, the
   /// last known one is kept.
   Vec3f forward(const Vec3f& pWorld) const;
