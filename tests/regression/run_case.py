@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Renders a regression case and compares it with its reference pictures, or writes those.
 
     run_case.py CASE METHOD --ebru PROGRAM --compare PROGRAM

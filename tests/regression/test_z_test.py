@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The z-test accepts noise, sees a pixel, a block and a picture that are wrong, and refuses values it cannot judge."""
 
 import sys
