@@ -90,7 +90,13 @@ void Exemplar::measure() {
       mean += t.cast<double>();
       square += t.cast<double>().square();
     }
-    for (const Texel& t : (tile.colour ? *tile.colour : tile.texels).texels(0)) shown += t.cast<double>();
+    const std::vector<Texel>& shownTexels = (tile.colour ? *tile.colour : tile.texels).texels(0);
+    if (n == 0.0) leastShown_ = greatestShown_ = shownTexels.front();
+    for (const Texel& t : shownTexels) {
+      shown += t.cast<double>();
+      leastShown_ = leastShown_.min(t);
+      greatestShown_ = greatestShown_.max(t);
+    }
     n += static_cast<double>(tile.texels.texels(0).size());
   }
   meanShown_ = (shown / n).cast<float>();

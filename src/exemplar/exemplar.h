@@ -107,8 +107,10 @@ class Exemplar {
     const Tile& tile = tileUnder(0, uv, local);
     return (tile.colour ? *tile.colour : tile.texels).sampleFiltered(local, width);
   }
-  /// The mean of the same over all images.
+  /// The mean of the same over all images, and the least and greatest of each channel.
   const Texel& meanShown() const { return meanShown_; }
+  const Texel& leastShown() const { return leastShown_; }
+  const Texel& greatestShown() const { return greatestShown_; }
   /// Adds `weight` times the means of the other maps under that footprint.
   void addOtherMaps(const Vec2f& uv, float width, float weight, OtherMaps& sum) const;
   /// What means of maps stand for. @param colour  as of `sampleFiltered`
@@ -154,7 +156,7 @@ class Exemplar {
   int otherChannels_ = 0;
   int roughnessSlot_ = -1, alphaSlot_ = -1, emissionSlot_ = -1;  ///< channels of OtherMaps; -1 without such a map
   float contrast_ = 0.0f;
-  Texel meanShown_ = Texel::Zero();
+  Texel meanShown_ = Texel::Zero(), leastShown_ = Texel::Zero(), greatestShown_ = Texel::Zero();
 };
 
 }  // namespace ebru

@@ -8,8 +8,9 @@
 
 namespace ebru {
 
-/// A hashed uniform grid over points: constant-time insertion and fixed-radius look-up. Keeps the positions beside the indices,
-/// so that a look-up reads nothing of the caller's for points out of reach. Look-ups are safe to call concurrently while nobody inserts; their order depends only on the order of insertion.
+/// A hashed uniform grid over points: constant-time insertion and fixed-radius look-up. Keeps the positions beside the
+/// indices, so that a look-up reads nothing of the caller's for points out of reach. Look-ups are safe to call concurrently
+/// while nobody inserts; their order depends only on the order of insertion.
 class CellGrid {
  public:
   /// @param cellSizeWorld  metres; as large as the usual look-up radius
@@ -29,7 +30,7 @@ class CellGrid {
     });
   }
 
-  /// Whether there is a point nearer than `radiusWorld`, the cell of the centre is asked first.
+  /// Whether there is a point nearer than `radiusWorld`; the cell of the centre is asked first.
   bool anyNear(const Vec3f& pWorld, float radiusWorld) const {
     return anyNear(pWorld, radiusWorld, [](std::uint32_t, float) { return true; });
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "textures.h"
 
 namespace ebru {
 namespace {
@@ -29,6 +30,18 @@ TEST(BlendedContrast, IsTheStandardDeviationOfABlendOfNoise) {
     }
     EXPECT_NEAR(std::sqrt(12.0 * squares / samples), blendedContrast(0.25f + 0.09f + 0.04f, correlation), 0.005);
   }
+}
+
+// Halves of 0.2 and 0.8: a mean of 0.65 is drawn out from 0.5, one of 0.8 stays within the exemplar's range; contrast 1 leaves it alone.
+TEST(BlendedContrast, NoChannelLeavesTheExemplarsRange) {
+  const Exemplar exemplar(32, 32, test::texelsOf(32, [](int x, int) { return Texel(Texel::Constant(x < 16 ? 0.2f : 0.8f)); }));
+  const auto kept = [&](float mean, float contrast) {
+    return withContrast(exemplar, Texel::Constant(mean - 0.5f), contrast);
+  };
+  EXPECT_LT((kept(0.65f, 0.75f) - 0.7f).abs().maxCoeff(), 1e-6f);
+  EXPECT_LT((kept(0.8f, 0.75f) - 0.8f).abs().maxCoeff(), 1e-6f);
+  EXPECT_LT((kept(0.25f, 0.75f) - 0.2f).abs().maxCoeff(), 1e-6f);
+  EXPECT_LT((kept(0.9f, 1.0f) - 0.9f).abs().maxCoeff(), 1e-6f);
 }
 
 }  // namespace

@@ -90,8 +90,8 @@ TextureSample ChartField::lookup(const SurfacePoint& point) const {
   }
   for (Texel& other : others) other /= weights;
   const float faded = fading / weights;
-  sum /= weights * blendedContrast(faded * faded + (1.0f - faded) * (1.0f - faded), alike);
-  take(exemplar_->decode(exemplar_->meanShown() + sum, others), sample);
+  const float contrast = blendedContrast(faded * faded + (1.0f - faded) * (1.0f - faded), alike);
+  take(exemplar_->decode(withContrast(*exemplar_, sum / weights, contrast), others), sample);
   const std::size_t first = found[0].index;
   const Exemplar::Place place = exemplar_->normalised(
       particles.st[first] +

@@ -54,7 +54,7 @@ class ErosionField::Blend {
     // The predecessor's blend is the plain mean.
     const float correlation = field_.texture_->showing == Showing::blended ? 1.0f : 0.0f;
     const float contrast = blendedContrast(squares_ / (weights_ * weights_), correlation);
-    take(exemplar.decode(exemplar.meanShown() + sum_ / (weights_ * contrast), others_), sample);
+    take(exemplar.decode(withContrast(exemplar, sum_ / weights_, contrast), others_), sample);
     field_.describe(strongest_, sample);
     return sample;
   }
