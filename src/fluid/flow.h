@@ -17,11 +17,10 @@ class Flow {
   /// Velocity at `time` in [0, 1] frames after `from`. @return false where neither frame knows one.
   bool velocity(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec) const;
 
-  /// RK3 (Ralston) from time 0 to 1. The sub-steps are as long as the error of the midpoint rule, which needs no other slopes than
-  /// RK3, stays below 0.02 voxels in the first of them, where they are at most 4 voxels long. Voxel is the smaller
-  /// of the frames' surfaces'. A point whose velocity is exactly zero
-  /// comes back bit for bit, so does one whose velocity is unknown. Where it becomes unknown on the way, the
-  /// last known one is kept.
+  /// RK3 (Ralston) from time 0 to 1. Sub-steps are of equal length, at most 4 voxels, and are halved until the
+  /// first is wrong by at most 0.02 voxels by the midpoint rule, which needs no slopes that RK3 does not have.
+  /// Voxel is the smaller of the frames' surfaces'. A point whose velocity is exactly zero comes back bit for bit,
+  /// so does one whose velocity is unknown. Where it becomes unknown on the way, the last known one is kept.
   Vec3f forward(const Vec3f& pWorld) const;
   /// `forward`, and where it takes two small displacements: the deformation gradient, integrated along the same
   /// sub-steps, times `axes` (columns, world). They come back bit for bit where neither velocity nor gradient is other
