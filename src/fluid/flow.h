@@ -17,8 +17,8 @@ class Flow {
   /// Velocity at `time` in [0, 1] frames after `from`. @return false where neither frame knows one.
   bool velocity(const Vec3f& pWorld, float time, Vec3f& velocityWorldPerSec) const;
 
-  /// RK3 (Ralston) from time 0 to 1. Sub-steps are of equal length, at most 4 voxels, and are halved until the
-  /// first is wrong by at most 0.02 voxels by the midpoint rule, which needs no slopes that RK3 does not have.
+  /// RK4 from time 0 to 1. Sub-steps are of equal length, at most 4 voxels, and are halved until the displacements
+  /// by the two slopes in the middle of the first are within 0.03 voxels.
   /// Voxel is the smaller of the frames' surfaces'. A point whose velocity is exactly zero comes back bit for bit,
   /// so does one whose velocity is unknown. Where it becomes unknown on the way, the last known one is kept.
   Vec3f forward(const Vec3f& pWorld) const;

@@ -34,7 +34,7 @@ bool cameFromPatch(const Vec3f& origin) {
   return std::abs(origin.z() - test::slabTopWorld) < 1e-3f && origin.head<2>().cwiseAbs().maxCoeff() < 0.35f;
 }
 
-/// RK3's map of a linear flow over one frame, inverted: exp(-M) to third order.
+/// The map of a linear flow over one frame, inverted: exp(-M) to third order.
 Mat3f backwardOf(const Mat3f& m) { return Mat3f::Identity() - m + 0.5f * m * m - m * m * m / 6.0f; }
 
 /// The chart of particlesOnTop is st = (x, -y) in texels + 32: every new point must show the place it came from, and its

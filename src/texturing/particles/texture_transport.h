@@ -24,7 +24,7 @@ enum class ParticleFate : std::uint8_t {
 bool rests(const FluidFrame& from, const FluidFrame& to, float texelWorld, const TextureParticles& particles,
            std::size_t i);
 
-/// Moves particles with Flow::forward (RK3), projects them to the surface of `to`, and drops those that left it.
+/// Moves particles with Flow::forward (RK4), projects them to the surface of `to`, and drops those that left it.
 /// The frame follows eq. 4 of Kwatra: the orientation is carried as a vector, head and tail. The Jacobian is multiplied
 /// with the inverse of the step's tangential deformation gradient, integrated along its path; where the fluid knows no
 /// gradient, measured by carrying points a little way along both axes.
