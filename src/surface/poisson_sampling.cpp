@@ -40,8 +40,8 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals, const CellGrid& grid,
                         float gapWorld, float spacingWorld, std::uint64_t seed) {
   // Candidates are found concurrently in fixed blocks, then thinned in order.
-  const double dartsPerArea = 1.5 / (static_cast<double>(spacingWorld) * spacingWorld);
-  constexpr int moreDarts = 3;
+  const double dartsPerArea = 2.2 / (static_cast<double>(spacingWorld) * spacingWorld);
+  constexpr int moreDarts = 2;
   constexpr std::size_t block = 512;
   std::vector<std::vector<Dart>> candidates((mesh.triangles.size() + block - 1) / block);
   parallelBlocks(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {

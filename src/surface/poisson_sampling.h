@@ -25,9 +25,9 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
                        SurfaceSamples& samples);
 
 /// Places of the surface farther than `gapWorld` from every given point of compatible normal, themselves at least
-/// `spacingWorld` apart: 1.5 darts per spacingWorld^2 are thrown, 6 on triangles
-/// where one of them finds a gap. For points that move with the surface. The darts of a
-/// triangle depend on its place alone, so that where the surface rests no new places are tried.
+/// `spacingWorld` apart: 2.2 darts per spacingWorld^2 are thrown, 6.6 on triangles where one of them finds a gap. For points
+/// that move with the surface. The darts of a triangle depend on its place alone, so that where the surface rests no new
+/// places are tried.
 /// @param grid  of the points; without it one is made
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals, const CellGrid& grid,
                         float gapWorld, float spacingWorld, std::uint64_t seed);
