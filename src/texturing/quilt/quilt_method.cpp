@@ -24,7 +24,7 @@ constexpr int ringSize = 10;
 constexpr float bumpFeatures = 0.35f, mostBumpTexels = 5.0f;
 /// Of pieces, in features: of new ones, of those that cover a surface without any texture, and of those that mend its seams.
 constexpr float radiusFeatures = 1.6f, coreFeatures = 0.5f, firstRadiusFeatures = 6.0f, mendingRadiusFeatures = 3.0f;
-constexpr int mendingRounds = 8;
+constexpr int mendingRounds = 12;
 constexpr float mostLayingStretch = 1.3f;
 /// Texture that is stretched by a frame alone as much as the bound is not worth a change in every frame: it should last.
 constexpr float lastingFrames = 6.0f, mostBound = 3.0f;

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "core/random.h"
+#include "surface/cell_grid.h"
 #include "surface/orientation_field.h"
 #include "surface/poisson_sampling.h"
 #include "texturing/charts/exemplar_usage.h"
@@ -27,6 +28,7 @@ constexpr int refinementSteps = 3;
 constexpr float overuseSearched = 1.0f, overuseCut = 0.05f;
 constexpr float noise = 0.02f;           ///< squared contrasts
 constexpr float poorSeam = 0.3f;         ///< squared contrasts, mean over a point's links; worse ones are mended
+constexpr float mendedReach = 0.5f;      ///< of a mending piece's radius: so far about its centre nothing is mended again
 
 /// Of the points of a flattened piece, how far out it is flat: the first of twelve rings in which links are on the
 /// average more than `mostBend` longer or shorter than on the surface, or the radius.
@@ -102,7 +104,8 @@ class Quilting {
   }
 
   /// Lays one round of pieces: of `order`, each point that is far enough from those before it is a centre.
-  void layRound(std::span<const std::uint32_t> order) {
+  /// @return the centres
+  std::vector<std::uint32_t> layRound(std::span<const std::uint32_t> order) {
     const float apartWorld = 2.0f * shape_.radius * surface_.texelWorld;
     const std::vector<std::uint32_t> centres = pointsApart(surface_.points.positions, order, apartWorld);
     const std::vector<float> penalty = search_.penalties(usage_, overuseSearched * variance_);
@@ -111,6 +114,7 @@ class Quilting {
     for (const ChosenPiece& p : pieces) count(p, -1);
     parallelFor(pieces.size(), 1, [&](std::size_t k) { write(pieces[k]); });
     for (const ChosenPiece& p : pieces) count(p, 1);
+    return centres;
   }
 
  private:
@@ -248,22 +252,46 @@ std::vector<std::uint32_t> worstFirst(std::span<const float> value, const Above&
 }
 
 /// Per point, mean over its links of the squared difference across seams, in squared contrasts.
-std::vector<float> seamErrors(const QuiltSurface& surface, const Exemplar& exemplar) {
-  const ChartLinks charts(surface.points, surface.texture, surface.texelWorld);
-  const float unit = 1.0f / std::max(exemplar.contrast() * exemplar.contrast(), 1e-8f);
-  std::vector<float> errors(surface.wear.size());
-  parallelFor(errors.size(), 512, [&](std::size_t i) {
-    const auto ring = surface.graph.of(static_cast<std::uint32_t>(i));
+class SeamErrors {
+ public:
+  SeamErrors(const QuiltSurface& surface, const Exemplar& exemplar)
+      : surface_(surface),
+        exemplar_(exemplar),
+        charts_(surface.points, surface.texture, surface.texelWorld),
+        unit_(1.0f / std::max(exemplar.contrast() * exemplar.contrast(), 1e-8f)),
+        errors_(surface.wear.size()) {
+    parallelFor(errors_.size(), 512, [&](std::size_t i) { errors_[i] = at(i); });
+  }
+
+  /// After texture has changed within `reachWorld` of the centres.
+  void update(std::span<const std::uint32_t> centres, float reachWorld) {
+    CellGrid changed(reachWorld, centres.size());
+    for (const std::uint32_t i : centres) changed.insert(i, surface_.points.positions[i]);
+    parallelFor(errors_.size(), 512, [&](std::size_t i) {
+      if (changed.anyNear(surface_.points.positions[i], reachWorld)) errors_[i] = at(i);
+    });
+  }
+
+  const std::vector<float>& get() const { return errors_; }
+
+ private:
+  float at(std::size_t i) const {
+    const auto ring = surface_.graph.of(static_cast<std::uint32_t>(i));
     float sum = 0.0f;
     for (const std::uint32_t j : ring) {
-      const Vec2f st = charts.placeAt(j, i);
-      if (ChartLinks::samePiece(st, surface.texture.st[i])) continue;
-      sum += unit * (exemplar.sample(0, st) - surface.texture.colour[i]).square().sum();
+      const Vec2f st = charts_.placeAt(j, i);
+      if (ChartLinks::samePiece(st, surface_.texture.st[i])) continue;
+      sum += unit_ * (exemplar_.sample(0, st) - surface_.texture.colour[i]).square().sum();
     }
-    errors[i] = sum / static_cast<float>(std::max<std::size_t>(1, ring.size()));
-  });
-  return errors;
-}
+    return sum / static_cast<float>(std::max<std::size_t>(1, ring.size()));
+  }
+
+  const QuiltSurface& surface_;
+  const Exemplar& exemplar_;
+  ChartLinks charts_;
+  float unit_;
+  std::vector<float> errors_;
+};
 
 }  // namespace
 
@@ -282,9 +310,18 @@ void mendSeams(const QuiltSurface& surface, const Exemplar& exemplar, const Piec
                int rounds) {
   const PreStretch none = [](std::uint32_t) { return Mat2f(Mat2f::Identity()); };
   Quilting quilting(surface, exemplar, search, {shape.radius, 0.0f}, none);
+  const float mendedWorld = mendedReach * shape.radius * surface.texelWorld;
+  CellGrid mended(mendedWorld, 64);
+  SeamErrors errors(surface, exemplar);
   for (int k = 0; k < rounds; ++k) {
-    const std::vector<float> errors = seamErrors(surface, exemplar);
-    quilting.layRound(worstFirst(errors, [&](std::uint32_t i) { return errors[i] > poorSeam; }));
+    const std::vector<std::uint32_t> order = worstFirst(errors.get(), [&](std::uint32_t i) {
+      return errors.get()[i] > poorSeam && !mended.anyNear(surface.points.positions[i], mendedWorld);
+    });
+    if (order.empty()) return;
+    const std::vector<std::uint32_t> centres = quilting.layRound(order);
+    for (const std::uint32_t i : centres) mended.insert(i, surface.points.positions[i]);
+    // Links reach a little beyond what has changed.
+    errors.update(centres, (shape.radius + surroundings) * surface.texelWorld);
   }
 }
 

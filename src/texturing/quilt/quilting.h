@@ -32,7 +32,8 @@ using PreStretch = std::function<Mat2f(std::uint32_t centre)>;
 void coverWorn(const QuiltSurface& surface, const Exemplar& exemplar, const PieceSearch& search, const QuiltShape& shape,
                const PreStretch& preStretch);
 
-/// Lays pieces over the worst seams where that lowers the cost of seams; one round of pieces at a time.
+/// Lays pieces over the worst seams where that lowers the cost of seams, until all poor ones have been tried; at most so many rounds of
+/// disjoint pieces.
 void mendSeams(const QuiltSurface& surface, const Exemplar& exemplar, const PieceSearch& search, const QuiltShape& shape,
                int rounds);
 
