@@ -260,6 +260,27 @@ TEST_F(WholeFeatures, AreKeptOrErodedAsOne) {
   EXPECT_TRUE(both.empty());
 }
 
+// Along rows of texels: what is kept at their centres, and from one to the next it goes over evenly.
+TEST_F(WholeFeatures, HaveNoStaircaseForABorder) {
+  judgeStretched(1.0f);
+  const auto restAt = [&](const Vec2f& place) { return Vec2f(0.0125f * (place - patch_.centreSt)); };
+  const auto large = [&](const Vec2f& place) { return cells_.reach(cells_.at(0, place)) * 0.0125f > 0.5f * radius; };
+  int borders = 0;
+  for (float y = 20.5f; y < 95.0f; y += 7.0f)
+    for (float x = 1.5f; x < 75.0f; x += 1.0f) {
+      if (large({x, y}) || large({x + 1.0f, y})) continue;
+      const auto opacity = [&](float right) {
+        return erosion_.smoothKeeping(patch_, patch_.cells, restAt(Vec2f(x + right, y)), 1.0f).opacity;
+      };
+      const float here = erosion_.keeping(patch_, patch_.cells, restAt(Vec2f(x, y)), 1.0f).opacity,
+                  next = erosion_.keeping(patch_, patch_.cells, restAt(Vec2f(x + 1.0f, y)), 1.0f).opacity;
+      for (const float right : {0.01f, 0.25f, 0.5f, 0.75f, 0.99f})
+        ASSERT_NEAR(opacity(right), here + right * (next - here), 1e-3f) << x << " " << y;
+      borders += here != next;
+    }
+  EXPECT_GT(borders, 3);
+}
+
 TEST_F(WholeFeatures, NothingIsShownBeyondTheExemplarsImage) {
   judgeStretched(1.0f);
   const Keeping without = erosion_.keeping(patch_, patch_.cells, Vec2f(-0.48f, 0.0f), 1.0f);  // 2 texels left of the image

@@ -74,8 +74,8 @@ TextureSample ErosionField::oldest(const SurfacePoint& point) const {
   PatchLayers::Layer leastEroded{};
   float largest = -std::numeric_limits<float>::infinity(), through = 1.0f;
   const auto look = [&](const PatchLayers::Layer& layer) {
-    const Keeping kept = texture_->erosion.keeping(layers_->identity(layer.patch),
-                                                   layers_->cells(layer.patch), layer.rest, layer.weight);
+    const Keeping kept = texture_->erosion.smoothKeeping(layers_->identity(layer.patch),
+                                                         layers_->cells(layer.patch), layer.rest, layer.weight);
     if (kept.opacity > 0.0f) blend.add(layer, through * kept.opacity);
     through *= 1.0f - kept.opacity;
     if (kept.margin > largest) {

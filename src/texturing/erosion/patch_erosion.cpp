@@ -1,5 +1,6 @@
 #include "texturing/erosion/patch_erosion.h"
 
+#include <array>
 #include <limits>
 
 namespace ebru {
@@ -9,6 +10,26 @@ namespace {
 constexpr float freshQuality = 0.8f;
 
 }  // namespace
+
+Keeping PatchErosion::smoothKeeping(const PatchIdentity& patch, std::span<const KeptCell> judged, const Vec2f& rest,
+                                    float weight) const {
+  if (judged.empty()) return keeping(patch, judged, 0, rest, weight);
+  const Vec2f place = placeOf(patch, rest);
+  const Vec2f first = (place.array() - 0.5f).floor() + 0.5f, share = place - first;
+  std::array<std::uint32_t, 4> cells;
+  for (std::size_t k = 0; k < 4; ++k)
+    cells[k] = cells_->at(patch.tile, first + Vec2f(static_cast<float>(k & 1), static_cast<float>(k >> 1)));
+  const auto of = [&](std::uint32_t cell) { return keeping(patch, judged, indexOf(judged, cell), rest, weight); };
+  Keeping smooth = of(cells[0]);
+  if (cells[1] == cells[0] && cells[2] == cells[0] && cells[3] == cells[0]) return smooth;
+  smooth.opacity *= (1.0f - share.x()) * (1.0f - share.y());
+  for (std::size_t k = 1; k < 4; ++k) {
+    const Keeping kept = of(cells[k]);
+    smooth.margin = std::max(smooth.margin, kept.margin);
+    smooth.opacity += kept.opacity * (k & 1 ? share.x() : 1.0f - share.x()) * (k >> 1 ? share.y() : 1.0f - share.y());
+  }
+  return smooth;
+}
 
 void PatchErosion::judge(DeformablePatch& patch, int framesLater) const {
   patch.cells.clear();

@@ -44,13 +44,7 @@ class PatchErosion {
   /// Which of the judged cells of a patch a place lies in; their number if in none.
   std::size_t judgedCell(const PatchIdentity& patch, std::span<const KeptCell> judged,
                          const Vec2f& rest) const {
-    if (judged.empty()) return 0;
-    const std::uint32_t cell = cells_->at(patch.tile, placeOf(patch, rest));
-    const auto found =
-        std::lower_bound(judged.begin(), judged.end(), cell,
-                         [](const KeptCell& c, std::uint32_t wanted) { return c.cell < wanted; });
-    return found != judged.end() && found->cell == cell ? static_cast<std::size_t>(found - judged.begin())
-                                                        : judged.size();
+    return judged.empty() ? 0 : indexOf(judged, cells_->at(patch.tile, placeOf(patch, rest)));
   }
 
   /// How a place is kept. @param cell  of `judgedCell`
@@ -68,6 +62,9 @@ class PatchErosion {
                   float weight) const {
     return keeping(patch, judged, judgedCell(patch, judged, rest), rest, weight);
   }
+  /// The same between the four texels around a place, bilinearly: the border of a feature that is kept is no staircase.
+  Keeping smoothKeeping(const PatchIdentity& patch, std::span<const KeptCell> judged, const Vec2f& rest,
+                        float weight) const;
 
   /// Fills `cells` of a measured patch.
   /// @param framesLater  than the frame of `seen`: 0 or 1
@@ -93,6 +90,13 @@ class PatchErosion {
   float nearnessOf(const Vec2f& rest) const { return std::max(0.0f, 1.0f - rest.norm() / radiusWorld_); }
   Vec2f placeOf(const PatchIdentity& patch, const Vec2f& rest) const {
     return patch.centreSt + rest / texelWorld_;
+  }
+  static std::size_t indexOf(std::span<const KeptCell> judged, std::uint32_t cell) {
+    const auto found =
+        std::lower_bound(judged.begin(), judged.end(), cell,
+                         [](const KeptCell& c, std::uint32_t wanted) { return c.cell < wanted; });
+    return found != judged.end() && found->cell == cell ? static_cast<std::size_t>(found - judged.begin())
+                                                        : judged.size();
   }
   /// @param squaredTerm  F + D
   Keeping keeping(float squaredTerm, const PatchIdentity& patch, float weight) const {
