@@ -1,5 +1,7 @@
 #include "surface/poisson_sampling.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -14,6 +16,35 @@ bool crowded(const CellGrid& grid, const std::vector<Vec3f>& normals, const Dart
   return grid.anyNear(dart.position, radius,
                       [&](std::uint32_t i, float) { return normals[i].dot(dart.normal) > 0.0f; });
 }
+
+/// Points that were near to darts of one triangle, which are likely to be near to its next ones.
+class PointsMet {
+ public:
+  PointsMet(const CellGrid& grid, const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals, float radiusWorld)
+      : grid_(grid), positions_(positions), normals_(normals), radiusWorld_(radiusWorld) {}
+
+  /// For darts of another triangle.
+  void forget() { count_ = 0; }
+  /// As the function of that name.
+  bool crowded(const Dart& dart) {
+    for (std::size_t k = 0; k < std::min(count_, met_.size()); ++k)
+      if ((positions_[met_[k]] - dart.position).squaredNorm() < radiusWorld_ * radiusWorld_ &&
+          normals_[met_[k]].dot(dart.normal) > 0.0f)
+        return true;
+    return grid_.anyNear(dart.position, radiusWorld_, [&](std::uint32_t i, float) {
+      if (!(normals_[i].dot(dart.normal) > 0.0f)) return false;
+      met_[count_++ % met_.size()] = i;
+      return true;
+    });
+  }
+
+ private:
+  const CellGrid& grid_;
+  const std::vector<Vec3f>&positions_, &normals_;
+  float radiusWorld_;
+  std::array<std::uint32_t, 8> met_{};
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -37,14 +68,15 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
   }
 }
 
-SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals, const CellGrid& grid,
-                        float gapWorld, float spacingWorld, std::uint64_t seed) {
+SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
+                        const std::vector<Vec3f>& normals, const CellGrid& grid, float gapWorld, float spacingWorld, std::uint64_t seed) {
   // Candidates are found concurrently in fixed blocks, then thinned in order.
   const double dartsPerArea = 2.2 / (static_cast<double>(spacingWorld) * spacingWorld);
   constexpr int moreDarts = 2;
   constexpr std::size_t block = 512;
   std::vector<std::vector<Dart>> candidates((mesh.triangles.size() + block - 1) / block);
   parallelBlocks(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {
+    PointsMet met(grid, positions, normals, gapWorld);
     for (std::size_t t = begin; t < end; ++t) {
       Random random(seed, 0, placeHash(mesh, t));
       std::vector<Dart>& found = candidates[begin / block];
@@ -52,9 +84,10 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& norm
       int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
       const int more = moreDarts * darts;
       SpreadDarts spread(random);
+      met.forget();
       for (int d = 0; d < darts; ++d) {
         const Dart dart = spread.next(mesh, t);
-        if (crowded(grid, normals, dart, gapWorld)) continue;
+        if (met.crowded(dart)) continue;
         if (found.size() == before) darts += more;
         found.push_back(dart);
       }
@@ -77,7 +110,7 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
                         const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed) {
   CellGrid grid(gapWorld, positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), positions[i]);
-  return findGaps(mesh, normals, grid, gapWorld, spacingWorld, seed);
+  return findGaps(mesh, positions, normals, grid, gapWorld, spacingWorld, seed);
 }
 
 std::vector<std::uint32_t> pointsApart(std::span<const Vec3f> positions, std::span<const std::uint32_t> order,

@@ -29,8 +29,9 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
 /// that move with the surface. The darts of a triangle depend on its place alone, so that where the surface rests no new
 /// places are tried.
 /// @param grid  of the points; without it one is made
-SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals, const CellGrid& grid,
-                        float gapWorld, float spacingWorld, std::uint64_t seed);
+SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
+                        const std::vector<Vec3f>& normals, const CellGrid& grid, float gapWorld, float spacingWorld,
+                        std::uint64_t seed);
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
                         const std::vector<Vec3f>& normals, float gapWorld, float spacingWorld, std::uint64_t seed);
 

@@ -205,7 +205,7 @@ void keepSpacing(const FluidFrame& frame, const Exemplar& exemplar, float texelW
   CellGrid grid(gapTexels * texelWorld, particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) grid.insert(static_cast<std::uint32_t>(i), particles.position[i]);
   std::vector<std::uint8_t> removed = thinOut(particles, fates, texelWorld, grid);
-  const SurfaceSamples gaps = findGaps(frame.mesh, particles.normal, grid, gapTexels * texelWorld,
+  const SurfaceSamples gaps = findGaps(frame.mesh, particles.position, particles.normal, grid, gapTexels * texelWorld,
                                        refillTexels * texelWorld, seed);
   if (gaps.size() > 0) {
     const std::size_t oldCount = particles.size();
