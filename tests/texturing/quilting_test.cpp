@@ -171,5 +171,15 @@ TEST(MendSeams, LowersTheCostOfSeamsOrLeavesThemAlone) {
   EXPECT_EQ(whole.st, one);
 }
 
+// Pieces much smaller than the seam is long: when the worst of it has been tried the rest has its turn.
+TEST(MendSeams, MovesOnAlongASeam) {
+  const auto costAfter = [](int rounds) {
+    Plane plane(30, Vec2f(9.0f, 5.0f));
+    mendSeams(plane.surface(), plane.large, plane.search, {6.0f, 0.0f}, rounds);
+    return plane.seamCost();
+  };
+  EXPECT_LT(costAfter(8), 0.95 * costAfter(1));
+}
+
 }  // namespace
 }  // namespace ebru
