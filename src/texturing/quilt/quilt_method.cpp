@@ -25,6 +25,8 @@ constexpr float bumpFeatures = 0.35f, mostBumpTexels = 5.0f;
 /// Of pieces, in features: of new ones, of those that cover a surface without any texture, and of those that mend its seams.
 constexpr float radiusFeatures = 1.6f, coreFeatures = 0.5f, firstRadiusFeatures = 6.0f, mendingRadiusFeatures = 3.0f;
 constexpr int mendingRounds = 12;
+/// How far pieces go round bends (QuiltShape), and those of the first frame, of which few should cover much.
+constexpr float bend = 0.08f, firstBend = 0.12f;
 constexpr float mostLayingStretch = 1.3f;
 /// Texture that is stretched by a frame alone as much as the bound is not worth a change in every frame: it should last.
 constexpr float lastingFrames = 6.0f, mostBound = 3.0f;
@@ -156,9 +158,9 @@ void QuiltMethod::quilt(const QuiltSurface& surface, const StretchForecast& fore
     if (first) return Mat2f::Identity();
     return forecast.layingStretch({points.positions[i], points.normals[i], points.orientations[i]}, most, bound_);
   };
-  coverWorn(surface, *exemplar(), search_, {(first ? firstRadiusFeatures : radiusFeatures) * feature_, coreFeatures * feature_},
-            laying);
-  if (first) mendSeams(surface, *exemplar(), search_, {mendingRadiusFeatures * feature_, 0.0f}, mendingRounds);
+  const float radius = (first ? firstRadiusFeatures : radiusFeatures) * feature_;
+  coverWorn(surface, *exemplar(), search_, {radius, coreFeatures * feature_, first ? firstBend : bend}, laying);
+  if (first) mendSeams(surface, *exemplar(), search_, {mendingRadiusFeatures * feature_, 0.0f, firstBend}, mendingRounds);
 }
 
 void QuiltMethod::relax(const QuiltSurface& surface, const std::vector<ParticleFate>& fates, int sweeps) const {

@@ -19,7 +19,6 @@ namespace {
 
 constexpr float largestRadius = 0.4f;    ///< of a piece, against the exemplar's smaller side
 constexpr float surroundings = 4.0f;     ///< texels beyond the radius that the choice looks at
-constexpr float mostBend = 0.08f;        ///< mean relative error of flattened distances at a piece's rim
 constexpr std::size_t sampledMembers = 192, searchedSamples = 64;
 constexpr float innerWeight = 0.25f;     ///< of samples that lie where the piece will surely change, for the search
 constexpr std::size_t neighbourCharts = 24, searchedPlaces = 8, refined = 4;
@@ -31,12 +30,12 @@ constexpr float poorSeam = 0.3f;         ///< squared contrasts, mean over a poi
 constexpr float mendedReach = 0.5f;      ///< of a mending piece's radius: so far about its centre nothing is mended again
 
 /// Of the points of a flattened piece, how far out it is flat: the first of twelve rings in which links are on the
-/// average more than `mostBend` longer or shorter than on the surface, or the radius.
+/// average more than `bend` longer or shorter than on the surface, or the radius.
 class Flatness {
  public:
   explicit Flatness(std::size_t pointCount) : slot_(pointCount), stamp_(pointCount, 0) {}
 
-  float radius(const QuiltSurface& surface, std::span<const NeighbourhoodPoint> members, float radius) {
+  float radius(const QuiltSurface& surface, std::span<const NeighbourhoodPoint> members, float radius, float bend) {
     ++current_;
     for (std::size_t k = 0; k < members.size(); ++k) {
       slot_[members[k].index] = static_cast<std::uint32_t>(k);
@@ -59,7 +58,7 @@ class Flatness {
       }
     }
     for (std::size_t r = 1; r < rings; ++r)
-      if (error[r] > mostBend * length[r]) return radius * static_cast<float>(r) / rings;
+      if (error[r] > bend * length[r]) return radius * static_cast<float>(r) / rings;
     return radius;
   }
 
@@ -127,7 +126,7 @@ class Quilting {
       std::erase_if(piece.members, [&](const NeighbourhoodPoint& m) { return m.displacement.squaredNorm() > reach * reach; });
     };
     flatten(shape_.radius);
-    piece.radius = std::max(work.flatness.radius(surface_, piece.members, shape_.radius), shape_.core);
+    piece.radius = std::max(work.flatness.radius(surface_, piece.members, shape_.radius, shape_.bend), shape_.core);
     if (piece.radius < shape_.radius) flatten(piece.radius);
     piece.core = shape_.core;
     piece.stretch = axes * preStretch_(centre) * axes.transpose();
@@ -309,7 +308,7 @@ void coverWorn(const QuiltSurface& surface, const Exemplar& exemplar, const Piec
 void mendSeams(const QuiltSurface& surface, const Exemplar& exemplar, const PieceSearch& search, const QuiltShape& shape,
                int rounds) {
   const PreStretch none = [](std::uint32_t) { return Mat2f(Mat2f::Identity()); };
-  Quilting quilting(surface, exemplar, search, {shape.radius, 0.0f}, none);
+  Quilting quilting(surface, exemplar, search, {shape.radius, 0.0f, shape.bend}, none);
   const float mendedWorld = mendedReach * shape.radius * surface.texelWorld;
   CellGrid mended(mendedWorld, 64);
   SeamErrors errors(surface, exemplar);

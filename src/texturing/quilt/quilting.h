@@ -22,6 +22,7 @@ namespace ebru {
 struct QuiltShape {
   float radius;  ///< texels
   float core;    ///< texels; around a piece's centre all is replaced, so that no piece is smaller than a feature
+  float bend;  ///< a piece ends where flattened distances are on the average wrong by more than this share
 };
 
 /// The stretch a piece is laid with, in the frame of its centre: a symmetric matrix, exemplar texels per texel of surface. Safe to
