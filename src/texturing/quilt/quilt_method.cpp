@@ -24,7 +24,7 @@ constexpr int ringSize = 10;
 constexpr float bumpFeatures = 0.35f, mostBumpTexels = 5.0f;
 /// Of pieces, in features: of new ones, of those that cover a surface without any texture, and of those that mend its seams.
 constexpr float radiusFeatures = 1.6f, coreFeatures = 0.5f, firstRadiusFeatures = 6.0f, mendingRadiusFeatures = 3.0f;
-constexpr int mendingRounds = 12;
+constexpr int mendingRounds = 8;
 /// How far pieces go round bends (QuiltShape), and those of the first frame, of which few should cover much.
 constexpr float bend = 0.08f, firstBend = 0.12f;
 constexpr float mostLayingStretch = 1.3f;
