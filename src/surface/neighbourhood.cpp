@@ -34,7 +34,7 @@ Vec2f step(const OrientedPoints& points, const NeighbourhoodPoint& from, const N
 
 void NeighbourhoodBuilder::build(const OrientedPoints& points, const PointGraph& graph, std::uint32_t centre,
                                  const Mat2f& axes, float window, float texelWorld,
-                                 std::vector<NeighbourhoodPoint>& result) {
+                                 std::vector<NeighbourhoodPoint>& result, float reachWorld) {
   ++current_;
   result.clear();
   result.push_back({centre, Vec2f::Zero(), axes.col(0)});
@@ -49,6 +49,10 @@ void NeighbourhoodBuilder::build(const OrientedPoints& points, const PointGraph&
     for (std::uint32_t r : graph.of(q)) {
       if (stamp_[r] == current_) continue;
       stamp_[r] = current_;
+      if ((points.positions[r] - points.positions[centre]).squaredNorm() > reachWorld * reachWorld) {
+        order_[r] = outside;
+        continue;
+      }
       NeighbourhoodPoint next{r, Vec2f::Zero(), carriedTurn(points, result[head], r)};
       int count = 0;
       const auto predict = [&](const NeighbourhoodPoint& from) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,8 +44,11 @@ class NeighbourhoodBuilder {
   /// @param window  width in texels: |components of displacement| < window / 2
   /// @param texelWorld  metres per texel
   /// @param result  the centre first; overwritten
+  /// @param reachWorld  points farther than that from the centre in space are left out: without it the march follows crumpled surface,
+  ///     which looks short to it, as far as it goes
   void build(const OrientedPoints& points, const PointGraph& graph, std::uint32_t centre, const Mat2f& axes,
-             float window, float texelWorld, std::vector<NeighbourhoodPoint>& result);
+             float window, float texelWorld, std::vector<NeighbourhoodPoint>& result,
+             float reachWorld = std::numeric_limits<float>::infinity());
 
  private:
   std::vector<std::uint32_t> stamp_;  ///< which build placed a point last

@@ -147,6 +147,26 @@ TEST(Neighbourhood, StaysInTheWindowAndForgetsTheLastOne) {
   }
 }
 
+// Frames that lean by 75 degrees see a quarter of each step, as those of crumpled surface do: the window holds four times the length.
+TEST(Neighbourhood, GoesNoFartherInSpaceThanAllowed) {
+  Surface s = sampled(test::plane(8.0f, 80));
+  std::fill(s.normals.begin(), s.normals.end(), Vec3f(0.966f, 0.0f, 0.259f).normalized());
+  s.orientations = test::randomTangents(s.normals, 2);
+  s.link();
+  const std::uint32_t centre = nearestTo(s, Vec3f::Zero());
+  const auto farthest = [&](float reachWorld) {
+    NeighbourhoodBuilder builder(s.positions.size());
+    std::vector<NeighbourhoodPoint> found;
+    builder.build(s.points(), s.graph, centre, Mat2f::Identity(), 17.0f, texelWorld, found, reachWorld);
+    float result = 0.0f;
+    for (const NeighbourhoodPoint& m : found) result = std::max(result, (s.positions[m.index] - s.positions[centre]).norm());
+    return result;
+  };
+  EXPECT_GT(farthest(std::numeric_limits<float>::infinity()), 25.0f * texelWorld);
+  EXPECT_LE(farthest(9.0f * texelWorld), 9.0f * texelWorld);
+  EXPECT_GT(farthest(9.0f * texelWorld), 8.0f * texelWorld);
+}
+
 TEST(Neighbourhood, OfALonelyPointIsThatPoint) {
   Surface s{{Vec3f::Zero()}, {Vec3f::UnitZ()}, {Vec3f::UnitX()}, {}};
   s.link();

@@ -122,7 +122,8 @@ class Quilting {
     const Mat2f axes = nearestRotation(surface_.texture.jacobian[centre]);
     const auto flatten = [&](float radius) {
       const float reach = radius + surroundings;
-      work.builder.build(surface_.points, surface_.graph, centre, axes, 2.0f * reach, surface_.texelWorld, piece.members);
+      work.builder.build(surface_.points, surface_.graph, centre, axes, 2.0f * reach, surface_.texelWorld, piece.members,
+                         (1.0f + shape_.bend) * reach * surface_.texelWorld);
       std::erase_if(piece.members, [&](const NeighbourhoodPoint& m) { return m.displacement.squaredNorm() > reach * reach; });
     };
     flatten(shape_.radius);
