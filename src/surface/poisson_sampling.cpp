@@ -40,7 +40,8 @@ class PointsMet {
 
  private:
   const CellGrid& grid_;
-  const std::vector<Vec3f>&positions_, &normals_;
+  const std::vector<Vec3f>& positions_;
+  const std::vector<Vec3f>& normals_;
   float radiusWorld_;
   std::array<std::uint32_t, 8> met_{};
   std::size_t count_ = 0;
@@ -69,7 +70,8 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
 }
 
 SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& positions,
-                        const std::vector<Vec3f>& normals, const CellGrid& grid, float gapWorld, float spacingWorld, std::uint64_t seed) {
+                        const std::vector<Vec3f>& normals, const CellGrid& grid, float gapWorld, float spacingWorld,
+                        std::uint64_t seed) {
   // Candidates are found concurrently in fixed blocks, then thinned in order.
   const double dartsPerArea = 2.2 / (static_cast<double>(spacingWorld) * spacingWorld);
   constexpr int moreDarts = 2;
