@@ -12,20 +12,15 @@
 namespace ebru {
 namespace {
 
-bool crowded(const CellGrid& grid, const std::vector<Vec3f>& normals, const Dart& dart, float radius) {
-  return grid.anyNear(dart.position, radius,
-                      [&](std::uint32_t i, float) { return normals[i].dot(dart.normal) > 0.0f; });
-}
-
-/// Points that were near to darts of one triangle, which are likely to be near to its next ones.
+/// Points that were near to darts, which are likely to be near to the next ones.
 class PointsMet {
  public:
   PointsMet(const CellGrid& grid, const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals, float radiusWorld)
       : grid_(grid), positions_(positions), normals_(normals), radiusWorld_(radiusWorld) {}
 
-  /// For darts of another triangle.
+  /// For darts elsewhere.
   void forget() { count_ = 0; }
-  /// As the function of that name.
+  /// Whether a point is nearer than the radius and faces about the same way.
   bool crowded(const Dart& dart) {
     for (std::size_t k = 0; k < std::min(count_, met_.size()); ++k)
       if ((positions_[met_[k]] - dart.position).squaredNorm() < radiusWorld_ * radiusWorld_ &&
@@ -56,12 +51,13 @@ void addPoissonSamples(const TriangleMesh& mesh, float spacingWorld, std::uint64
   CellGrid grid(spacingWorld, samples.size() + 1024);
   for (std::size_t i = 0; i < samples.size(); ++i)
     grid.insert(static_cast<std::uint32_t>(i), samples.positions[i]);
+  PointsMet met(grid, samples.positions, samples.normals, spacingWorld);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     Random random(hashCombine(seed, samples.size() ? 1 : 0), frame, t);
     const int darts = dartCount(triangleArea(mesh, t) * dartsPerArea, random);
     for (int d = 0; d < darts; ++d) {
       const Dart dart = throwDart(mesh, t, random);
-      if (crowded(grid, samples.normals, dart, spacingWorld)) continue;
+      if (met.crowded(dart)) continue;
       grid.insert(static_cast<std::uint32_t>(samples.size()), dart.position);
       samples.positions.push_back(dart.position);
       samples.normals.push_back(dart.normal);
@@ -98,9 +94,10 @@ SurfaceSamples findGaps(const TriangleMesh& mesh, const std::vector<Vec3f>& posi
 
   SurfaceSamples gaps;
   CellGrid chosen(spacingWorld, 1024);
+  PointsMet met(chosen, gaps.positions, gaps.normals, spacingWorld);
   for (const std::vector<Dart>& darts : candidates)
     for (const Dart& dart : darts) {
-      if (crowded(chosen, gaps.normals, dart, spacingWorld)) continue;
+      if (met.crowded(dart)) continue;
       chosen.insert(static_cast<std::uint32_t>(gaps.size()), dart.position);
       gaps.positions.push_back(dart.position);
       gaps.normals.push_back(dart.normal);

@@ -1,5 +1,7 @@
 #include "texturing/particles/texture_transport.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -129,7 +131,7 @@ void sortByCell(float texelWorld, const std::vector<std::uint8_t>& removed, Text
   for (std::size_t i = 0; i < keys.size(); ++i)
     if (!removed[i]) sorted.emplace_back(keys[i], static_cast<std::uint32_t>(i));
   if (sorted.size() == keys.size() && std::is_sorted(sorted.begin(), sorted.end())) return;
-  std::sort(sorted.begin(), sorted.end());
+  tbb::parallel_sort(sorted.begin(), sorted.end());
   std::vector<std::uint32_t> order(sorted.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = sorted[i].second;
   applyOrder(order, particles, fates);

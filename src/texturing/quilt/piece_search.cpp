@@ -11,16 +11,29 @@ namespace ebru {
 namespace {
 
 constexpr int searchLevel = 2;
-constexpr int angles = 16;
-constexpr std::size_t batch = 8;  ///< samples between two looks at the bound
+constexpr int turns = 16;
+constexpr int stride = 4;               ///< of the first look, in places of a row; every second angle is looked at
+constexpr std::size_t batch = 8;        ///< samples between two looks at the bound
 
 }  // namespace
 
+/// Samples turned, and what else a place costs.
 struct PieceSearch::Query {
+  Query(std::span<const FitSample> given, std::span<const float> perPlace, float radius, int turn, std::uint32_t randomSeed,
+        float mostNoise)
+      : samples(given),
+        penalty(perPlace),
+        steps(given.size()),
+        rotation(Eigen::Rotation2Df(2.0f * std::numbers::pi_v<float> * static_cast<float>(turn) / turns).toRotationMatrix()),
+        margin(static_cast<int>(std::ceil(radius))),
+        seed(hashCombine(randomSeed, static_cast<std::uint32_t>(turn))),
+        noise(mostNoise) {}
+
   std::span<const FitSample> samples;
   std::span<const float> penalty;
   std::vector<Vec2i> steps;  ///< of the samples from the centre, texels of the coarse level
   Mat2f rotation;
+  int margin;  ///< of the centre from a tile's border
   std::uint32_t seed;
   float noise;
 };
@@ -48,48 +61,53 @@ std::vector<float> PieceSearch::penalties(const ExemplarUsage& usage, float perE
 
 void PieceSearch::search(std::span<const FitSample> samples, std::span<const float> penalty, float radius,
                          std::uint32_t seed, float noise, std::vector<Placement>& found) const {
-  std::vector<Best> best;
-  Query query{samples, penalty, std::vector<Vec2i>(samples.size()), Mat2f::Identity(), seed, noise};
-  for (int a = 0; a < angles; ++a) {
-    const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(a) / angles;
-    query.rotation = Eigen::Rotation2Df(angle).toRotationMatrix();
-    query.seed = hashCombine(seed, static_cast<std::uint32_t>(a));
-    int margin = static_cast<int>(std::ceil(radius / scale_));
+  const auto query = [&](int turn) {
+    Query q(samples, penalty, radius / scale_, (turn + turns) % turns, seed, noise);
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      query.steps[k] = (query.rotation * samples[k].displacement / scale_).array().round().cast<int>().matrix();
-      margin = std::max(margin, query.steps[k].cwiseAbs().maxCoeff());
+      q.steps[k] = (q.rotation * samples[k].displacement / scale_).array().round().cast<int>().matrix();
+      q.margin = std::max(q.margin, q.steps[k].cwiseAbs().maxCoeff());
     }
-    best.push_back({{Vec2f::Zero(), query.rotation}, std::numeric_limits<float>::max()});
-    for (const Tile& tile : tiles_) searchTile(tile, query, margin, best.back());
+    return q;
+  };
+  std::vector<Best> best;
+  for (int turn = 0; turn < turns; turn += 2) {
+    Best b{&tiles_.front(), tiles_.front().size / 2};
+    const Query q = query(turn);
+    for (const Tile& tile : tiles_) compare(tile, q, Vec2i::Zero(), tile.size, stride, b);
+    const Vec2i place = b.place, reach = Vec2i::Constant(stride / 2);
+    for (const int near : {turn - 1, turn, turn + 1})
+      compare(*b.tile, query(near), place - reach, place + reach + Vec2i::Ones(), 1, b);
+    best.push_back(b);
   }
   std::stable_sort(best.begin(), best.end(), [](const Best& p, const Best& q) { return p.cost < q.cost; });
   found.clear();
-  for (const Best& b : best) found.push_back(b.placement);
+  for (const Best& b : best) found.push_back({scale_ * b.tile->centre(b.place.x(), b.place.y()), b.rotation});
 }
 
-void PieceSearch::searchTile(const Tile& tile, const Query& query, int margin, Best& best) const {
-  const Vec2i border = ((tile.size.array() - 1) / 2).min(margin).matrix();
+void PieceSearch::compare(const Tile& tile, const Query& query, const Vec2i& from, const Vec2i& to, int every, Best& best) const {
+  const Vec2i border = ((tile.size.array() - 1) / 2).min(query.margin).matrix();
+  const Vec2i first = from.cwiseMax(border), end = to.cwiseMin(tile.size - border);
   std::vector<std::ptrdiff_t> offsets(query.steps.size());
   for (std::size_t k = 0; k < offsets.size(); ++k) {
     const Vec2i step = query.steps[k].cwiseMin(border).cwiseMax(-border);
     offsets[k] = step.y() * tile.size.x() + step.x();
   }
   const float share = 1.0f / static_cast<float>(std::max<std::size_t>(1, query.samples.size()));
-  // Every second place, like the black squares of a chess board: what is refined later need not be met exactly.
-  for (int y = border.y(); y < tile.size.y() - border.y(); ++y)
-    for (int x = border.x() + (y & 1); x < tile.size.x() - border.x(); x += 2) {
+  // Places of a row lie between those of the row before.
+  for (int y = first.y(); y < end.y(); ++y)
+    for (int x = first.x() + (first.x() + every / 2 < end.x() ? every / 2 * (y & 1) : 0); x < end.x(); x += every) {
       const std::size_t at = tile.at(x, y);
       const std::uint32_t random = hashCombine(query.seed, static_cast<std::uint32_t>(at)) & 0xffffu;
       float cost = query.penalty[at] + query.noise * static_cast<float>(random) / 65536.0f;
       for (std::size_t k = 0; k < offsets.size() && cost < best.cost;) {
         Texel squares = Texel::Zero();
-        for (const std::size_t end = std::min(offsets.size(), k + batch); k < end; ++k) {
+        for (const std::size_t stop = std::min(offsets.size(), k + batch); k < stop; ++k) {
           const Texel& there = texels_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + offsets[k])];
           squares += query.samples[k].weight * (query.samples[k].colour - there).square();
         }
         cost += share * squares.sum();
       }
-      if (cost < best.cost) best = {{scale_ * tile.centre(x, y), query.rotation}, cost};
+      if (cost < best.cost) best = {&tile, {x, y}, query.rotation, cost};
     }
 }
 

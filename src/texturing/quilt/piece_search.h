@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,8 +11,8 @@
 
 namespace ebru {
 
-/// Finds where in the exemplar a piece of surface fits, whatever part of it is known: all places of a coarse pyramid level
-/// at 16 angles are compared with its samples. Const members are safe to call concurrently.
+/// Finds where in the exemplar a piece of surface fits, whatever part of it is known. A quarter of the places of a coarse pyramid
+/// level at every second of 16 angles are compared with its samples, then all places and angles around the best of each. Const members are safe to call concurrently.
 class PieceSearch {
  public:
   explicit PieceSearch(const Exemplar& exemplar);
@@ -19,7 +20,7 @@ class PieceSearch {
   /// Squared colours, per place: `perExcess` times ExemplarUsage::excess.
   std::vector<float> penalties(const ExemplarUsage& usage, float perExcess) const;
 
-  /// The best place of each angle, the best first: least mean over the samples of weight * |colour - exemplar|^2, plus the
+  /// The best places about each of 8 angles, the best first: least mean over the samples of weight * |colour - exemplar|^2, plus the
   /// penalty, plus a random number up to `noise` that decides where samples do not.
   /// @param samples  level 0; any order, best a random one
   /// @param radius  texels; the piece stays inside the exemplar
@@ -38,10 +39,13 @@ class PieceSearch {
   };
   struct Query;
   struct Best {
-    Placement placement;
-    float cost;
+    const Tile* tile;
+    Vec2i place;  ///< texels of the coarse level from the tile's origin
+    Mat2f rotation = Mat2f::Identity();
+    float cost = std::numeric_limits<float>::max();
   };
-  void searchTile(const Tile& tile, const Query& query, int margin, Best& best) const;
+  /// With every so-manieth place of a row from `from` to before `to`.
+  void compare(const Tile& tile, const Query& query, const Vec2i& from, const Vec2i& to, int every, Best& best) const;
 
   float scale_;  ///< level-0 texels per texel of the coarse level
   std::vector<Tile> tiles_;
