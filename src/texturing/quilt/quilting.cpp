@@ -25,6 +25,7 @@ constexpr std::size_t neighbourCharts = 24, searchedPlaces = 8, refined = 4;
 constexpr int refinementSteps = 3;
 /// Per ExemplarUsage::excess: for the search, in squared contrasts; for cuts, per square texel of the disc.
 constexpr float overuseSearched = 1.0f, overuseCut = 0.05f;
+constexpr float largeCores = 4.0f, smallFirst = 4.0f;  ///< pieces larger than so many cores are tried at this part of their radius first
 constexpr float noise = 0.02f;           ///< squared contrasts
 constexpr float poorSeam = 0.3f;         ///< squared contrasts, mean over a point's links; worse ones are mended
 constexpr float mendedReach = 0.5f;      ///< of a mending piece's radius: so far about its centre nothing is mended again
@@ -126,9 +127,15 @@ class Quilting {
                          (1.0f + shape_.bend) * reach * surface_.texelWorld);
       std::erase_if(piece.members, [&](const NeighbourhoodPoint& m) { return m.displacement.squaredNorm() > reach * reach; });
     };
-    flatten(shape_.radius);
-    piece.radius = std::max(work.flatness.radius(surface_, piece.members, shape_.radius, shape_.bend), shape_.core);
-    if (piece.radius < shape_.radius) flatten(piece.radius);
+    // Where the surface bends a large disc is mostly flattened for nothing.
+    float tried = shape_.radius > largeCores * shape_.core ? shape_.radius / smallFirst : shape_.radius;
+    for (;; tried = std::min(2.0f * tried, shape_.radius)) {
+      flatten(tried);
+      piece.radius = work.flatness.radius(surface_, piece.members, tried, shape_.bend);
+      if (piece.radius < tried || tried == shape_.radius) break;
+    }
+    piece.radius = std::max(piece.radius, shape_.core);
+    if (piece.radius != tried) flatten(piece.radius);
     piece.core = shape_.core;
     piece.stretch = axes * preStretch_(centre) * axes.transpose();
     work.stretched = piece.members;
