@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.h"
+#include "core/random.h"
 #include "textured_plane.h"
 #include "texturing/charts/chart_links.h"
 #include "texturing/particles/texture_particles.h"
@@ -18,7 +19,7 @@ const PreStretch rigid = [](std::uint32_t) { return Mat2f(Mat2f::Identity()); };
 /// A plane of one piece of a larger exemplar, or of two.
 struct Plane : test::TexturedPlane {
   const Exemplar large{128, 128, test::texelsOf(128, test::discs)};
-  const PieceSearch search{large};
+  const PieceSource source{large};
   std::vector<float> wear = std::vector<float>(sidePoints * sidePoints, 1.0f), bound = std::vector<float>(sidePoints * sidePoints, 1.7f);
   std::vector<std::uint8_t> laid = std::vector<std::uint8_t>(sidePoints * sidePoints, 0);
 
@@ -30,7 +31,7 @@ struct Plane : test::TexturedPlane {
   }
   QuiltSurface surface() { return {points(), graph, texelWorld, texture(), wear, bound, {}, laid}; }
   void cover(const QuiltShape& shape = {14.0f, 4.0f, bend}, const PreStretch& preStretch = rigid) {
-    coverWorn(surface(), large, search, shape, preStretch);
+    coverWorn(surface(), source, shape, preStretch);
   }
   void wearOut(int from, int to, float by = noTexture) {
     for (int y = from; y < to; ++y)
@@ -165,15 +166,36 @@ TEST(CoverWorn, PiecesAreSmallerWhereTheSurfaceBends) {
   EXPECT_GT(farthestWith(2.0f * bend), 1.1f * farthest);
 }
 
+// A piece in which little happens is near to any other; were that all, the texture would become flat.
+TEST(CoverWorn, FlatPlacesDoNotTakeOver) {
+  // Grain that grows stronger to the right.
+  const auto grain = [](int x, int y) {
+    Random random(3, static_cast<std::uint64_t>(x / 3), static_cast<std::uint64_t>(y / 3));
+    return Texel(Texel::Constant(0.5f + (random.uniform() - 0.5f) * static_cast<float>(x) / 160.0f));
+  };
+  const Exemplar exemplar{160, 160, test::texelsOf(160, grain)};
+  const PieceSource source(exemplar);
+  Plane plane;
+  plane.wearOut(0, sidePoints);
+  for (int round = 0; round < 24; ++round) {
+    std::fill(plane.laid.begin(), plane.laid.end(), 0);
+    if (round > 0) plane.wearOut(10 * (round % 4), 10 * (round % 4) + 25, 2.0f);
+    coverWorn(plane.surface(), source, {12.0f, 4.0f, bend}, rigid);
+  }
+  double mean = 0.0;
+  for (const Vec2f& st : plane.st) mean += st.x() / static_cast<double>(plane.st.size());
+  EXPECT_GT(mean, 65.0);
+}
+
 TEST(MendSeams, LowersTheCostOfSeamsOrLeavesThemAlone) {
   Plane plane(30, Vec2f(9.0f, 5.0f));
   const double before = plane.seamCost();
   ASSERT_GT(before, 1.0);
-  mendSeams(plane.surface(), plane.large, plane.search, {20.0f, 0.0f, bend}, 4);
+  mendSeams(plane.surface(), plane.source, {20.0f, 0.0f, bend}, 4);
   EXPECT_LT(plane.seamCost(), 0.95 * before);
   Plane whole;
   const std::vector<Vec2f> one = whole.st;
-  mendSeams(whole.surface(), whole.large, whole.search, {20.0f, 0.0f, bend}, 4);
+  mendSeams(whole.surface(), whole.source, {20.0f, 0.0f, bend}, 4);
   EXPECT_EQ(whole.st, one);
 }
 
@@ -181,7 +203,7 @@ TEST(MendSeams, LowersTheCostOfSeamsOrLeavesThemAlone) {
 TEST(MendSeams, MovesOnAlongASeam) {
   const auto costAfter = [](int rounds) {
     Plane plane(30, Vec2f(9.0f, 5.0f));
-    mendSeams(plane.surface(), plane.large, plane.search, {6.0f, 0.0f, bend}, rounds);
+    mendSeams(plane.surface(), plane.source, {6.0f, 0.0f, bend}, rounds);
     return plane.seamCost();
   };
   EXPECT_LT(costAfter(8), 0.95 * costAfter(1));

@@ -94,8 +94,8 @@ void PieceCut::link(const QuiltSurface& surface) {
   }
 }
 
-float PieceCut::estimate(const Placement& placement) {
-  return polar_.cost(*exemplar_, {placement.uv, placement.rotation * piece_->stretch});
+float PieceCut::estimate(const Placement& placement, float differences) {
+  return polar_.cost(*exemplar_, {placement.uv, placement.rotation * piece_->stretch}, differences);
 }
 
 float PieceCut::pieceDifference(const Placement& placement, std::size_t k) const {

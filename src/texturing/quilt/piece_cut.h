@@ -35,7 +35,8 @@ class PieceCut {
   void prepare(const QuiltSurface& surface, const Exemplar& exemplar, const Piece& piece);
 
   /// About what the least-cost cut would cost.
-  float estimate(const Placement& placement);
+  /// @param differences  what squared differences of colour are multiplied by
+  float estimate(const Placement& placement, float differences = 1.0f);
 
   /// Along which the seams, what is kept and what changes cost least together.
   /// @param takes  1 for the members that are to show the piece

@@ -45,8 +45,8 @@ void PolarCut::gather(std::span<const Point> points, float radius, float core, f
     if (cell.count > 0.0f) cell.colour /= cell.count;
 }
 
-float PolarCut::cost(const Exemplar& exemplar, const Placement& placement) {
-  compare(exemplar, placement);
+float PolarCut::cost(const Exemplar& exemplar, const Placement& placement, float differences) {
+  compare(exemplar, placement, differences);
   sumAngles();
   // The first angle's ring is that of the best open cut.
   int first = 0, same = 0;
@@ -54,14 +54,15 @@ float PolarCut::cost(const Exemplar& exemplar, const Placement& placement) {
   return sweep(first, same);
 }
 
-void PolarCut::compare(const Exemplar& exemplar, const Placement& placement) {
+void PolarCut::compare(const Exemplar& exemplar, const Placement& placement, float differences) {
   const int level = std::min(1, exemplar.levelCount() - 1);
   const float scale = 1.0f / static_cast<float>(1 << level);
   difference_.resize(cells_.size());
   for (std::size_t k = 0; k < cells_.size(); ++k)
     difference_[k] = cells_[k].count == 0.0f
                          ? -1.0f
-                         : (cells_[k].colour - exemplar.sample(level, scale * placement.at(centres_[k]))).square().sum();
+                         : differences *
+                               (cells_[k].colour - exemplar.sample(level, scale * placement.at(centres_[k]))).square().sum();
 }
 
 void PolarCut::sumAngles() {

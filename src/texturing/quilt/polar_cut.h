@@ -29,7 +29,8 @@ class PolarCut {
   void gather(std::span<const Point> points, float radius, float core, float seam, float link);
 
   /// Least cost, for what the exemplar shows at a placement of the disc.
-  float cost(const Exemplar& exemplar, const Placement& placement);
+  /// @param differences  what squared differences are multiplied by
+  float cost(const Exemplar& exemplar, const Placement& placement, float differences = 1.0f);
 
  private:
   struct Cell {
@@ -37,7 +38,7 @@ class PolarCut {
     float keep = 0.0f, change = 0.0f;
     float count = 0.0f;  ///< of points that are not empty
   };
-  void compare(const Exemplar& exemplar, const Placement& placement);
+  void compare(const Exemplar& exemplar, const Placement& placement, float differences);
   void sumAngles();
   float radialCost(int angle, int from, int to) const;
   /// The best cut, open or through a given ring at the first angle. @param first  the ring it has there
@@ -48,7 +49,7 @@ class PolarCut {
   float seam_ = 1.0f, link_ = 0.0f;
   std::vector<Cell> cells_;
   std::vector<Vec2f> centres_;
-  std::vector<float> difference_;  ///< per cell, squared; negative: nothing to compare with
+  std::vector<float> difference_;  ///< per cell, squared and multiplied; negative: nothing to compare with
   std::vector<float> total_;       ///< per angle and number of rings that change
 };
 

@@ -43,7 +43,7 @@ class QuiltMethod : public ParticleMethod {
         bound_(static_cast<float>(options.stretch_bound)),
         lookAhead_(options.look_ahead),
         views_(options.quilt.camera_aware ? views : ViewFactory()),
-        search_(*exemplar()) {
+        source_(*exemplar()) {
     const PhaseTimer timer(times, "exemplar");
     feature_ = options.feature_size > 0.0 ? static_cast<float>(options.feature_size) : featureSize(*exemplar());
   }
@@ -78,7 +78,7 @@ class QuiltMethod : public ParticleMethod {
   int lookAhead_;
   ViewFactory views_;  ///< null: all texture counts as seen
   float feature_ = 0.0f;  ///< texels
-  PieceSearch search_;
+  PieceSource source_;
 };
 
 /// 1 - visibility, of the most visible point around: a piece reaches as far as that even if its cut is short.
@@ -159,8 +159,8 @@ void QuiltMethod::quilt(const QuiltSurface& surface, const StretchForecast& fore
     return forecast.layingStretch({points.positions[i], points.normals[i], points.orientations[i]}, most, bound_);
   };
   const float radius = (first ? firstRadiusFeatures : radiusFeatures) * feature_;
-  coverWorn(surface, *exemplar(), search_, {radius, coreFeatures * feature_, first ? firstBend : bend}, laying);
-  if (first) mendSeams(surface, *exemplar(), search_, {mendingRadiusFeatures * feature_, 0.0f, firstBend}, mendingRounds);
+  coverWorn(surface, source_, {radius, coreFeatures * feature_, first ? firstBend : bend}, laying);
+  if (first) mendSeams(surface, source_, {mendingRadiusFeatures * feature_, 0.0f, firstBend}, mendingRounds);
 }
 
 void QuiltMethod::relax(const QuiltSurface& surface, const std::vector<ParticleFate>& fates, int sweeps) const {

@@ -26,6 +26,7 @@ constexpr int refinementSteps = 3;
 /// Per ExemplarUsage::excess: for the search, in squared contrasts; for cuts, per square texel of the disc.
 constexpr float overuseSearched = 1.0f, overuseCut = 0.05f;
 constexpr float largeCores = 4.0f, smallFirst = 4.0f;  ///< pieces larger than so many cores are tried at this part of their radius first
+constexpr float varianceWeight = 0.7f;  ///< how far squared differences count against LocalVariance
 constexpr float noise = 0.02f;           ///< squared contrasts
 constexpr float poorSeam = 0.3f;         ///< squared contrasts, mean over a point's links; worse ones are mended
 constexpr float mendedReach = 0.5f;      ///< of a mending piece's radius: so far about its centre nothing is mended again
@@ -87,17 +88,16 @@ struct ChosenPiece {
 
 class Quilting {
  public:
-  Quilting(const QuiltSurface& surface, const Exemplar& exemplar, const PieceSearch& search, const QuiltShape& shape,
-           const PreStretch& preStretch)
+  Quilting(const QuiltSurface& surface, const PieceSource& source, const QuiltShape& shape, const PreStretch& preStretch)
       : surface_(surface),
-        exemplar_(exemplar),
-        search_(search),
+        source_(source),
+        exemplar_(source.exemplar),
         shape_(shape),
         preStretch_(preStretch),
-        variance_(exemplar.contrast() * exemplar.contrast()),
-        usage_(exemplar, pointsPerTexel),
+        variance_(exemplar_.contrast() * exemplar_.contrast()),
+        usage_(exemplar_, pointsPerTexel),
         workplaces_([this] { return Workplace(surface_.points.positions.size()); }) {
-    shape_.radius = std::min(shape.radius, largestRadius * static_cast<float>(exemplar.smallestSize().minCoeff()));
+    shape_.radius = std::min(shape.radius, largestRadius * static_cast<float>(exemplar_.smallestSize().minCoeff()));
     shape_.core = std::min(shape.core, shape_.radius);
     for (std::size_t i = 0; i < surface.wear.size(); ++i)
       if (surface.wear[i] < noTexture) usage_.add(surface.texture.st[i]);
@@ -108,7 +108,7 @@ class Quilting {
   std::vector<std::uint32_t> layRound(std::span<const std::uint32_t> order) {
     const float apartWorld = 2.0f * shape_.radius * surface_.texelWorld;
     const std::vector<std::uint32_t> centres = pointsApart(surface_.points.positions, order, apartWorld);
-    const std::vector<float> penalty = search_.penalties(usage_, overuseSearched * variance_);
+    const std::vector<float> penalty = source_.search.penalties(usage_, overuseSearched * variance_);
     std::vector<ChosenPiece> pieces(centres.size());
     parallelFor(centres.size(), 1, [&](std::size_t k) { choose(centres[k], penalty, workplaces_.local(), pieces[k]); });
     for (const ChosenPiece& p : pieces) count(p, -1);
@@ -173,7 +173,8 @@ class Quilting {
   Placement bestPlacement(const Piece& piece, std::uint32_t centre, std::span<const float> penalty, Workplace& work) const {
     const float area = std::numbers::pi_v<float> * piece.radius * piece.radius;
     const auto cost = [&](const Placement& p) {
-      return work.cut.estimate(p) + overuseCut * area * usage_.excess(p.uv);
+      const float expected = 1.0f + varianceWeight * (source_.variance.relative(p.uv, piece.radius) - 1.0f);
+      return work.cut.estimate(p, 1.0f / expected) + overuseCut * area * usage_.excess(p.uv);
     };
     std::vector<Candidate> candidates;
     const auto add = [&](Placement p) {
@@ -184,7 +185,7 @@ class Quilting {
       if (!known) candidates.push_back({p, cost(p)});
     };
     addCharts(work, add);
-    search_.search(work.searched, penalty, piece.radius, hashCombine(centre, 77u), noise * variance_, work.found);
+    source_.search.search(work.searched, penalty, piece.radius, hashCombine(centre, 77u), noise * variance_, work.found);
     for (std::size_t k = 0; k < std::min(searchedPlaces, work.found.size()); ++k) add(work.found[k]);
 
     const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
@@ -237,8 +238,8 @@ class Quilting {
   }
 
   const QuiltSurface& surface_;
+  const PieceSource& source_;
   const Exemplar& exemplar_;
-  const PieceSearch& search_;
   QuiltShape shape_;
   const PreStretch& preStretch_;
   float variance_;
@@ -302,9 +303,8 @@ class SeamErrors {
 
 }  // namespace
 
-void coverWorn(const QuiltSurface& surface, const Exemplar& exemplar, const PieceSearch& search, const QuiltShape& shape,
-               const PreStretch& preStretch) {
-  Quilting quilting(surface, exemplar, search, shape, preStretch);
+void coverWorn(const QuiltSurface& surface, const PieceSource& source, const QuiltShape& shape, const PreStretch& preStretch) {
+  Quilting quilting(surface, source, shape, preStretch);
   std::vector<std::uint32_t> order =
       worstFirst(surface.wear, [&](std::uint32_t i) { return surface.wear[i] > surface.bound[i]; });
   while (!order.empty()) {
@@ -313,13 +313,12 @@ void coverWorn(const QuiltSurface& surface, const Exemplar& exemplar, const Piec
   }
 }
 
-void mendSeams(const QuiltSurface& surface, const Exemplar& exemplar, const PieceSearch& search, const QuiltShape& shape,
-               int rounds) {
+void mendSeams(const QuiltSurface& surface, const PieceSource& source, const QuiltShape& shape, int rounds) {
   const PreStretch none = [](std::uint32_t) { return Mat2f(Mat2f::Identity()); };
-  Quilting quilting(surface, exemplar, search, {shape.radius, 0.0f, shape.bend}, none);
+  Quilting quilting(surface, source, {shape.radius, 0.0f, shape.bend}, none);
   const float mendedWorld = mendedReach * shape.radius * surface.texelWorld;
   CellGrid mended(mendedWorld, 64);
-  SeamErrors errors(surface, exemplar);
+  SeamErrors errors(surface, source.exemplar);
   for (int k = 0; k < rounds; ++k) {
     const std::vector<std::uint32_t> order = worstFirst(errors.get(), [&](std::uint32_t i) {
       return errors.get()[i] > poorSeam && !mended.anyNear(surface.points.positions[i], mendedWorld);

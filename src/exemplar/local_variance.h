@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "exemplar/exemplar.h"
+
+namespace ebru {
+
+/// How much happens around each place of an exemplar, against the whole of it.
+///
+/// Variance of the texels, summed over their four components, of a square about the place that is as large as a disc; of cells
+/// of 4 x 4 texels of level 0, whose sums are kept in summed-area tables. The squared difference of two
+/// unrelated pieces of texture is on the average the sum of their variances about a common mean, so that a piece in which little
+/// happens is nearer to any other than one like it.
+/// Const members are safe to call concurrently.
+class LocalVariance {
+ public:
+  explicit LocalVariance(const Exemplar& exemplar);
+
+  /// Variance within the radius of a place (texels of level 0; as much of the square as lies in the tile's image) over that of all
+  /// texels of the exemplar; 1 for an exemplar of one colour.
+  float relative(const Vec2f& uv, float radius) const;
+
+ private:
+  struct Sums {
+    Eigen::Array4d texels = Eigen::Array4d::Zero();
+    double squares = 0.0;  ///< of all components
+  };
+  struct Tile {
+    Vec2i cells;  ///< across and down
+    Vec2f cell;   ///< texels
+    std::vector<Sums> sums;  ///< of the cells to the left and above, (across + 1) x (down + 1)
+  };
+  static double variance(const Sums& sums, double count);
+
+  const Exemplar& exemplar_;
+  std::vector<Tile> tiles_;
+  double whole_ = 0.0;
+};
+
+}  // namespace ebru
