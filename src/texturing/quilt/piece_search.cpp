@@ -12,8 +12,8 @@ namespace {
 
 constexpr int searchLevel = 2;
 constexpr int turns = 16;
-constexpr int stride = 4;               ///< of the first look, in places of a row; every second angle is looked at
-constexpr std::size_t batch = 8;        ///< samples between two looks at the bound
+constexpr int stride = 4;         ///< of the first look, in places of a row; every second angle is looked at
+constexpr std::size_t batch = 8;  ///< samples between two looks at the bound
 
 }  // namespace
 

@@ -25,8 +25,9 @@ constexpr std::size_t neighbourCharts = 24, searchedPlaces = 8, refined = 4;
 constexpr int refinementSteps = 3;
 /// Per ExemplarUsage::excess: for the search, in squared contrasts; for cuts, per square texel of the disc.
 constexpr float overuseSearched = 1.0f, overuseCut = 0.05f;
-constexpr float largeCores = 4.0f, smallFirst = 4.0f;  ///< pieces larger than so many cores are tried at this part of their radius first
-constexpr float varianceWeight = 0.7f;  ///< how far squared differences count against LocalVariance
+/// A piece of more than so many cores is tried with a fourth of its radius first, then with twice as much.
+constexpr float largeCores = 4.0f, smallFirst = 4.0f;
+constexpr float varianceWeight = 0.7f;   ///< how far squared differences count against LocalVariance
 constexpr float noise = 0.02f;           ///< squared contrasts
 constexpr float poorSeam = 0.3f;         ///< squared contrasts, mean over a point's links; worse ones are mended
 constexpr float mendedReach = 0.5f;      ///< of a mending piece's radius: so far about its centre nothing is mended again
@@ -121,21 +122,7 @@ class Quilting {
   void choose(std::uint32_t centre, std::span<const float> penalty, Workplace& work, ChosenPiece& chosen) const {
     Piece& piece = chosen.piece;
     const Mat2f axes = nearestRotation(surface_.texture.jacobian[centre]);
-    const auto flatten = [&](float radius) {
-      const float reach = radius + surroundings;
-      work.builder.build(surface_.points, surface_.graph, centre, axes, 2.0f * reach, surface_.texelWorld, piece.members,
-                         (1.0f + shape_.bend) * reach * surface_.texelWorld);
-      std::erase_if(piece.members, [&](const NeighbourhoodPoint& m) { return m.displacement.squaredNorm() > reach * reach; });
-    };
-    // Where the surface bends a large disc is mostly flattened for nothing.
-    float tried = shape_.radius > largeCores * shape_.core ? shape_.radius / smallFirst : shape_.radius;
-    for (;; tried = std::min(2.0f * tried, shape_.radius)) {
-      flatten(tried);
-      piece.radius = work.flatness.radius(surface_, piece.members, tried, shape_.bend);
-      if (piece.radius < tried || tried == shape_.radius) break;
-    }
-    piece.radius = std::max(piece.radius, shape_.core);
-    if (piece.radius != tried) flatten(piece.radius);
+    flattenDisc(centre, axes, work, piece);
     piece.core = shape_.core;
     piece.stretch = axes * preStretch_(centre) * axes.transpose();
     work.stretched = piece.members;
@@ -144,6 +131,25 @@ class Quilting {
     gather(piece, work);
     chosen.placement = bestPlacement(piece, centre, penalty, work);
     work.cut.cut(chosen.placement, chosen.takes);
+  }
+
+  /// The members and the radius of a piece: as far as the surface can be flattened, at least the core.
+  void flattenDisc(std::uint32_t centre, const Mat2f& axes, Workplace& work, Piece& piece) const {
+    const auto flatten = [&](float radius) {
+      const float reach = radius + surroundings;
+      work.builder.build(surface_.points, surface_.graph, centre, axes, 2.0f * reach, surface_.texelWorld, piece.members,
+                         (1.0f + shape_.bend) * reach * surface_.texelWorld);
+      std::erase_if(piece.members, [&](const NeighbourhoodPoint& m) { return m.displacement.squaredNorm() > reach * reach; });
+    };
+    // Where the surface bends most of a large disc would be flattened for nothing.
+    float tried = shape_.radius > largeCores * shape_.core ? shape_.radius / smallFirst : shape_.radius;
+    for (;; tried = std::min(2.0f * tried, shape_.radius)) {
+      flatten(tried);
+      piece.radius = work.flatness.radius(surface_, piece.members, tried, shape_.bend);
+      if (piece.radius < tried || tried == shape_.radius) break;
+    }
+    piece.radius = std::max(piece.radius, shape_.core);
+    if (piece.radius != tried) flatten(piece.radius);
   }
 
   /// The known texture of a piece, some members of it.
