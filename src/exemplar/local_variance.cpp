@@ -3,50 +3,53 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 
 namespace ebru {
 namespace {
 
 constexpr int cellTexels = 4;
 
-/// Summed-area table of the means over cells.
-cv::Mat integralOfCells(const cv::Mat& texels, const cv::Size& cells) {
-  cv::Mat means, sums;
-  cv::resize(texels, means, cells, 0.0, 0.0, cv::INTER_AREA);
-  cv::integral(means, sums, CV_64F);
-  return sums;
-}
-
 }  // namespace
 
 LocalVariance::LocalVariance(const Exemplar& exemplar) : exemplar_(exemplar) {
   Sums all;
-  double count = 0.0;
   for (int t = 0; t < exemplar.tileCount(); ++t) {
-    const Vec2i size = exemplar.tileSize(t), cells = size / cellTexels;
-    // OpenCV takes no constant data, and only reads this.
-    const cv::Mat texels(size.y(), size.x(), CV_32FC4, const_cast<Texel*>(exemplar.texels(t).texels(0).data()));
-    cv::Mat squares;
-    cv::transform(texels.mul(texels), squares, cv::Mat::ones(1, 4, CV_32F));
-    const cv::Mat texelSums = integralOfCells(texels, {cells.x(), cells.y()}),
-                  squareSums = integralOfCells(squares, {cells.x(), cells.y()});
-    Tile& tile = tiles_.emplace_back(Tile{cells, size.cast<float>().cwiseQuotient(cells.cast<float>()), {}});
-    for (int y = 0; y <= cells.y(); ++y)
-      for (int x = 0; x <= cells.x(); ++x) {
-        const cv::Vec4d& s = texelSums.at<cv::Vec4d>(y, x);
-        tile.sums.push_back({{s[0], s[1], s[2], s[3]}, squareSums.at<double>(y, x)});
-      }
-    const double area = cells.prod();
-    all.texels += tile.sums.back().texels;
-    all.squares += tile.sums.back().squares;
-    count += area;
+    const Tile& tile = tiles_.emplace_back(measured(exemplar.texels(t).texels(0), exemplar.tileSize(t)));
+    const Sums& whole = tile.sums.back();
+    all.texels += whole.texels;
+    all.squares += whole.squares;
+    all.count += whole.count;
   }
-  whole_ = variance(all, count);
+  whole_ = variance(all);
 }
 
-double LocalVariance::variance(const Sums& sums, double count) {
-  return std::max(0.0, sums.squares / count - (sums.texels / count).square().sum());
+LocalVariance::Tile LocalVariance::measured(const std::vector<Texel>& texels, const Vec2i& size) {
+  Tile tile;
+  tile.cells = size / cellTexels;
+  tile.cell = size.cast<float>().cwiseQuotient(tile.cells.cast<float>());
+  tile.sums.resize(static_cast<std::size_t>((tile.cells.x() + 1) * (tile.cells.y() + 1)));
+  for (int y = 0; y < size.y(); ++y)
+    for (int x = 0; x < size.x(); ++x) {
+      const Eigen::Array4d texel = texels[static_cast<std::size_t>(y * size.x() + x)].cast<double>();
+      Sums& sums = tile.at(x * tile.cells.x() / size.x() + 1, y * tile.cells.y() / size.y() + 1);
+      sums.texels += texel;
+      sums.squares += texel.square().sum();
+      sums.count += 1.0;
+    }
+  const auto add = [](Sums& sums, const Sums& more) {
+    sums.texels += more.texels;
+    sums.squares += more.squares;
+    sums.count += more.count;
+  };
+  for (int y = 1; y <= tile.cells.y(); ++y)
+    for (int x = 2; x <= tile.cells.x(); ++x) add(tile.at(x, y), tile.at(x - 1, y));
+  for (int y = 2; y <= tile.cells.y(); ++y)
+    for (int x = 1; x <= tile.cells.x(); ++x) add(tile.at(x, y), tile.at(x, y - 1));
+  return tile;
+}
+
+double LocalVariance::variance(const Sums& sums) {
+  return std::max(0.0, sums.squares / sums.count - (sums.texels / sums.count).square().sum());
 }
 
 float LocalVariance::relative(const Vec2f& uv, float radius) const {
@@ -58,12 +61,11 @@ float LocalVariance::relative(const Vec2f& uv, float radius) const {
   const Eigen::Array2i most = tile.cells.array();
   const Eigen::Array2i from = ((local.array() - half) / tile.cell.array()).round().cast<int>().max(0).min(most - 1);
   const Eigen::Array2i to = ((local.array() + half) / tile.cell.array()).round().cast<int>().min(most).max(from + 1);
-  const auto at = [&](int x, int y) -> const Sums& {
-    return tile.sums[static_cast<std::size_t>(y * (tile.cells.x() + 1) + x)];
-  };
-  const Sums &a = at(from.x(), from.y()), &b = at(to.x(), from.y()), &c = at(from.x(), to.y()), &d = at(to.x(), to.y());
-  const Sums sums{d.texels - b.texels - c.texels + a.texels, d.squares - b.squares - c.squares + a.squares};
-  return static_cast<float>(variance(sums, (to - from).prod()) / whole_);
+  const Sums &a = tile.at(from.x(), from.y()), &b = tile.at(to.x(), from.y()), &c = tile.at(from.x(), to.y()),
+             &d = tile.at(to.x(), to.y());
+  const Sums sums{d.texels - b.texels - c.texels + a.texels, d.squares - b.squares - c.squares + a.squares,
+                  d.count - b.count - c.count + a.count};
+  return static_cast<float>(variance(sums) / whole_);
 }
 
 }  // namespace ebru

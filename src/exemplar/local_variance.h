@@ -9,7 +9,7 @@ namespace ebru {
 /// How much happens around each place of an exemplar, against the whole of it.
 ///
 /// Variance of the texels, summed over their four components, of a square about the place that is as large as a disc; of cells
-/// of 4 x 4 texels of level 0, whose sums are kept in summed-area tables. The squared difference of two
+/// of 4 x 4 texels of level 0 (about; they fill the image), whose sums are kept in summed-area tables. The squared difference of two
 /// unrelated pieces of texture is on the average the sum of their variances about a common mean, so that a piece in which little
 /// happens is nearer to any other than one like it.
 /// Const members are safe to call concurrently.
@@ -25,13 +25,18 @@ class LocalVariance {
   struct Sums {
     Eigen::Array4d texels = Eigen::Array4d::Zero();
     double squares = 0.0;  ///< of all components
+    double count = 0.0;
   };
   struct Tile {
-    Vec2i cells;  ///< across and down
-    Vec2f cell;   ///< texels
+    Vec2i cells;             ///< across and down
+    Vec2f cell;              ///< texels, the mean
     std::vector<Sums> sums;  ///< of the cells to the left and above, (across + 1) x (down + 1)
+    std::size_t place(int x, int y) const { return static_cast<std::size_t>(y * (cells.x() + 1) + x); }
+    Sums& at(int x, int y) { return sums[place(x, y)]; }
+    const Sums& at(int x, int y) const { return sums[place(x, y)]; }
   };
-  static double variance(const Sums& sums, double count);
+  static Tile measured(const std::vector<Texel>& texels, const Vec2i& size);
+  static double variance(const Sums& sums);
 
   const Exemplar& exemplar_;
   std::vector<Tile> tiles_;
