@@ -12,14 +12,9 @@ constexpr int cellTexels = 4;
 }  // namespace
 
 LocalVariance::LocalVariance(const Exemplar& exemplar) : exemplar_(exemplar) {
-  Sums all;
-  for (int t = 0; t < exemplar.tileCount(); ++t) {
-    const Tile& tile = tiles_.emplace_back(measured(exemplar.texels(t).texels(0), exemplar.tileSize(t)));
-    const Sums& whole = tile.sums.back();
-    all.texels += whole.texels;
-    all.squares += whole.squares;
-    all.count += whole.count;
-  }
+  Sums all = Sums::Zero();
+  for (int t = 0; t < exemplar.tileCount(); ++t)
+    all += tiles_.emplace_back(measured(exemplar.texels(t).texels(0), exemplar.tileSize(t))).sums.back();
   whole_ = variance(all);
 }
 
@@ -27,29 +22,24 @@ LocalVariance::Tile LocalVariance::measured(const std::vector<Texel>& texels, co
   Tile tile;
   tile.cells = size / cellTexels;
   tile.cell = size.cast<float>().cwiseQuotient(tile.cells.cast<float>());
-  tile.sums.resize(static_cast<std::size_t>((tile.cells.x() + 1) * (tile.cells.y() + 1)));
+  tile.sums.resize(static_cast<std::size_t>((tile.cells.x() + 1) * (tile.cells.y() + 1)), Sums::Zero());
   for (int y = 0; y < size.y(); ++y)
     for (int x = 0; x < size.x(); ++x) {
       const Eigen::Array4d texel = texels[static_cast<std::size_t>(y * size.x() + x)].cast<double>();
-      Sums& sums = tile.at(x * tile.cells.x() / size.x() + 1, y * tile.cells.y() / size.y() + 1);
-      sums.texels += texel;
-      sums.squares += texel.square().sum();
-      sums.count += 1.0;
+      Sums sums;
+      sums << texel, texel.square().sum(), 1.0;
+      tile.at(x * tile.cells.x() / size.x() + 1, y * tile.cells.y() / size.y() + 1) += sums;
     }
-  const auto add = [](Sums& sums, const Sums& more) {
-    sums.texels += more.texels;
-    sums.squares += more.squares;
-    sums.count += more.count;
-  };
   for (int y = 1; y <= tile.cells.y(); ++y)
-    for (int x = 2; x <= tile.cells.x(); ++x) add(tile.at(x, y), tile.at(x - 1, y));
+    for (int x = 2; x <= tile.cells.x(); ++x) tile.at(x, y) += tile.at(x - 1, y);
   for (int y = 2; y <= tile.cells.y(); ++y)
-    for (int x = 1; x <= tile.cells.x(); ++x) add(tile.at(x, y), tile.at(x, y - 1));
+    for (int x = 1; x <= tile.cells.x(); ++x) tile.at(x, y) += tile.at(x, y - 1);
   return tile;
 }
 
 double LocalVariance::variance(const Sums& sums) {
-  return std::max(0.0, sums.squares / sums.count - (sums.texels / sums.count).square().sum());
+  const Sums mean = sums / sums[5];
+  return std::max(0.0, mean[4] - mean.head<4>().square().sum());
 }
 
 float LocalVariance::relative(const Vec2f& uv, float radius) const {
@@ -61,10 +51,7 @@ float LocalVariance::relative(const Vec2f& uv, float radius) const {
   const Eigen::Array2i most = tile.cells.array();
   const Eigen::Array2i from = ((local.array() - half) / tile.cell.array()).round().cast<int>().max(0).min(most - 1);
   const Eigen::Array2i to = ((local.array() + half) / tile.cell.array()).round().cast<int>().min(most).max(from + 1);
-  const Sums &a = tile.at(from.x(), from.y()), &b = tile.at(to.x(), from.y()), &c = tile.at(from.x(), to.y()),
-             &d = tile.at(to.x(), to.y());
-  const Sums sums{d.texels - b.texels - c.texels + a.texels, d.squares - b.squares - c.squares + a.squares,
-                  d.count - b.count - c.count + a.count};
+  const Sums sums = tile.at(to.x(), to.y()) - tile.at(to.x(), from.y()) - tile.at(from.x(), to.y()) + tile.at(from.x(), from.y());
   return static_cast<float>(variance(sums) / whole_);
 }
 

@@ -8,9 +8,9 @@ namespace ebru {
 
 /// How much happens around each place of an exemplar, against the whole of it.
 ///
-/// Variance of the texels, summed over their four components, of a square about the place that is as large as a disc; of cells
-/// of 4 x 4 texels of level 0 (about; they fill the image), whose sums are kept in summed-area tables. The squared difference of two
-/// unrelated pieces of texture is on the average the sum of their variances about a common mean, so that a piece in which little
+/// Variance of the texels, summed over their four components, of a square about the place with the area of a disc; made of cells
+/// of about 4 x 4 texels of level 0, whose sums are kept in summed-area tables. The squared difference of two unrelated pieces
+/// of texture is on the average the sum of their variances about a common mean, so that a piece in which little
 /// happens is nearer to any other than one like it.
 /// Const members are safe to call concurrently.
 class LocalVariance {
@@ -22,11 +22,8 @@ class LocalVariance {
   float relative(const Vec2f& uv, float radius) const;
 
  private:
-  struct Sums {
-    Eigen::Array4d texels = Eigen::Array4d::Zero();
-    double squares = 0.0;  ///< of all components
-    double count = 0.0;
-  };
+  /// Of texels: their four components, the squares of all of these, and the number of texels.
+  using Sums = Eigen::Array<double, 6, 1>;
   struct Tile {
     Vec2i cells;             ///< across and down
     Vec2f cell;              ///< texels, the mean

@@ -19,16 +19,6 @@ constexpr std::size_t batch = 8;  ///< samples between two looks at the bound
 
 /// Samples turned, and what else a place costs.
 struct PieceSearch::Query {
-  Query(std::span<const FitSample> given, std::span<const float> perPlace, float radius, int turn, std::uint32_t randomSeed,
-        float mostNoise)
-      : samples(given),
-        penalty(perPlace),
-        steps(given.size()),
-        rotation(Eigen::Rotation2Df(2.0f * std::numbers::pi_v<float> * static_cast<float>(turn) / turns).toRotationMatrix()),
-        margin(static_cast<int>(std::ceil(radius))),
-        seed(hashCombine(randomSeed, static_cast<std::uint32_t>(turn))),
-        noise(mostNoise) {}
-
   std::span<const FitSample> samples;
   std::span<const float> penalty;
   std::vector<Vec2i> steps;  ///< of the samples from the centre, texels of the coarse level
@@ -61,22 +51,25 @@ std::vector<float> PieceSearch::penalties(const ExemplarUsage& usage, float perE
 
 void PieceSearch::search(std::span<const FitSample> samples, std::span<const float> penalty, float radius,
                          std::uint32_t seed, float noise, std::vector<Placement>& found) const {
-  const auto query = [&](int turn) {
-    Query q(samples, penalty, radius / scale_, (turn + turns) % turns, seed, noise);
+  std::vector<Query> queries;
+  for (int turn = 0; turn < turns; ++turn) {
+    const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(turn) / turns;
+    Query& q = queries.emplace_back();
+    q = {samples, penalty, std::vector<Vec2i>(samples.size()), Eigen::Rotation2Df(angle).toRotationMatrix(),
+         static_cast<int>(std::ceil(radius / scale_)),
+         static_cast<std::uint32_t>(hashCombine(seed, static_cast<std::uint32_t>(turn))), noise};
     for (std::size_t k = 0; k < samples.size(); ++k) {
       q.steps[k] = (q.rotation * samples[k].displacement / scale_).array().round().cast<int>().matrix();
       q.margin = std::max(q.margin, q.steps[k].cwiseAbs().maxCoeff());
     }
-    return q;
-  };
+  }
   std::vector<Best> best;
-  for (int turn = 0; turn < turns; turn += 2) {
+  for (std::size_t turn = 0; turn < turns; turn += 2) {
     Best b{&tiles_.front(), tiles_.front().size / 2};
-    const Query q = query(turn);
-    for (const Tile& tile : tiles_) compare(tile, q, Vec2i::Zero(), tile.size, stride, b);
+    for (const Tile& tile : tiles_) compare(tile, queries[turn], Vec2i::Zero(), tile.size, stride, b);
     const Vec2i place = b.place, reach = Vec2i::Constant(stride / 2);
-    for (const int near : {turn - 1, turn, turn + 1})
-      compare(*b.tile, query(near), place - reach, place + reach + Vec2i::Ones(), 1, b);
+    for (const std::size_t near : {turn + turns - 1, turn, turn + 1})
+      compare(*b.tile, queries[near % turns], place - reach, place + reach + Vec2i::Ones(), 1, b);
     best.push_back(b);
   }
   std::stable_sort(best.begin(), best.end(), [](const Best& p, const Best& q) { return p.cost < q.cost; });
@@ -93,9 +86,10 @@ void PieceSearch::compare(const Tile& tile, const Query& query, const Vec2i& fro
     offsets[k] = step.y() * tile.size.x() + step.x();
   }
   const float share = 1.0f / static_cast<float>(std::max<std::size_t>(1, query.samples.size()));
-  // Places of a row lie between those of the row before.
+  // Places of a row lie between those of the row before, if it is long enough.
+  const int shift = first.x() + every / 2 < end.x() ? every / 2 : 0;
   for (int y = first.y(); y < end.y(); ++y)
-    for (int x = first.x() + (first.x() + every / 2 < end.x() ? every / 2 * (y & 1) : 0); x < end.x(); x += every) {
+    for (int x = first.x() + shift * (y & 1); x < end.x(); x += every) {
       const std::size_t at = tile.at(x, y);
       const std::uint32_t random = hashCombine(query.seed, static_cast<std::uint32_t>(at)) & 0xffffu;
       float cost = query.penalty[at] + query.noise * static_cast<float>(random) / 65536.0f;

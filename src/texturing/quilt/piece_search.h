@@ -12,7 +12,8 @@
 namespace ebru {
 
 /// Finds where in the exemplar a piece of surface fits, whatever part of it is known. A quarter of the places of a coarse pyramid
-/// level at every second of 16 angles are compared with its samples, then all places and angles around the best of each. Const members are safe to call concurrently.
+/// level at every second of 16 angles are compared with its samples, then all places and angles around the best of each.
+/// Const members are safe to call concurrently.
 class PieceSearch {
  public:
   explicit PieceSearch(const Exemplar& exemplar);
@@ -44,7 +45,7 @@ class PieceSearch {
     Mat2f rotation = Mat2f::Identity();
     float cost = std::numeric_limits<float>::max();
   };
-  /// With every so-manieth place of a row from `from` to before `to`.
+  /// The samples with the places in [from, to), of each row the first of every so many.
   void compare(const Tile& tile, const Query& query, const Vec2i& from, const Vec2i& to, int every, Best& best) const;
 
   float scale_;  ///< level-0 texels per texel of the coarse level
